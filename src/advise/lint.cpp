@@ -8,7 +8,9 @@
 #include <utility>
 
 #include "advise/lint_contact.hpp"
+#include "advise/lint_start.hpp"
 #include "advise/lone_cells.hpp"
+#include "advise/long_run.hpp"
 #include "advise/loose_faces.hpp"
 #include "advise/waves.hpp"
 #include "base/units.hpp"
@@ -32,16 +34,19 @@ void lint_touches(const Simulation& s, std::vector<std::string>& out) {
 }
 
 /// A run in which no wave crosses a cell: somewhere a unit is wrong.
-void lint_duration(const Simulation& s, std::vector<std::string>& out) {
+std::vector<UnitSign> lint_duration(const Simulation& s) {
   const bool is_static = std::all_of(s.stages().begin(), s.stages().end(),
                                      [](const auto& stage) { return !has_inertia(stage->settings().kind); });
   const double travel = waves(s).speed * s.end(), h = smallest_cell(s.solid());
-  if (is_static || travel >= h) return;
+  if (is_static || travel >= h) return {};
   const std::string_view length = unit_name(Dimension::length, s.given().units);
-  out.push_back(
-      fmt::format("{}: waves travel {:.3g} {} in the whole run, less than the smallest cell ({:.3g} {}): nothing will "
-                  "deform. Are the mesh, E, rho and the time in one system of units (units = \"{}\")?",
-                  to_string(s.given().time.where), travel, length, h, length, name(s.given().units)));
+  return {
+      {s.given().time.where,
+       fmt::format("time: waves travel {:.3g} {} in the whole run, less than the smallest cell ({:.3g} {}): nothing "
+                   "will deform",
+                   travel, length, h, length),
+       fmt::format("are the mesh, E, rho and the time in one system of units (units = \"{}\")?",
+                   name(s.given().units))}};
 }
 
 void lint_scheme(const Simulation& s, std::vector<std::string>& out) {
@@ -89,11 +94,12 @@ void lint_filters(const Simulation& s, std::vector<std::string>& out) {
 }  // namespace
 
 std::vector<std::string> lint_warnings(const Simulation& s) {
-  std::vector<std::string> out = plausibility_warnings(s.given());
+  std::vector<std::string> out = plausibility_warnings(s.given(), lint_duration(s));
+  for (std::string& warning : start_warnings(s)) out.push_back(std::move(warning));
   for (std::string& warning : contact_warnings(s)) out.push_back(std::move(warning));
   for (std::string& warning : loose_face_warnings(s)) out.push_back(std::move(warning));
   lint_scheme(s, out);
-  lint_duration(s, out);
+  if (std::optional<std::string> warning = long_run_warning(s)) out.push_back(std::move(*warning));
   lint_touches(s, out);
   lint_moved_mass(s, out);
   lint_filters(s, out);

@@ -208,6 +208,16 @@ class ContactLint {
     constexpr double too_small = 0.05;
     const double step = std::min(of_spring, of_damper);
     if (step >= too_small * of_cells) return;
+    const PressureTable* table = table_of(c);
+    const double reached = table != nullptr ? penetration(c) : 0.0;
+    if (table != nullptr && of_spring <= of_damper && table->largest_slope(reached) < table->largest_slope()) {
+      const double of_reached = of_spring * std::sqrt(table->largest_slope() / table->largest_slope(reached));
+      say(": the steepest piece of its pressures makes the explicit step about {:.2g} times smaller than the cells need "
+          "({:.3g} instead of {:.3g}), and impact at {:.4g} will reach a depth of about {:.2g} alone, for which {:.3g} "
+          "would do: leave out the depths far beyond, or take an implicit scheme",
+          of_cells / step, step, of_cells, a.speed, reached, std::min({of_reached, of_damper, of_cells}));
+      return;
+    }
     say(": its {} makes the explicit step about {:.2g} times smaller than the cells need ({:.3g} instead of {:.3g}): "
         "{} it, or take an implicit scheme",
         of_damper < of_spring ? "damping" : "stiffness", of_cells / step, step, of_cells,
@@ -279,16 +289,46 @@ class ContactLint {
           kind, unseen, kind);
   }
 
+  const PressureTable* table_of(std::size_t c) const {
+    const ContactLaw* law = law_of(s_.model().contacts[c]);
+    return law == nullptr ? nullptr : law->pressure.get();
+  }
+
+  /// Stiffness of the whole contact over its area; of a law of pressure that of its steepest piece.
+  double stiffness_per_area(std::size_t c) const {
+    const double all = area(c);
+    return all > 0.0 ? approaches_[c].stiffness / all : 0.0;
+  }
+
+  /// At which the contact presses as a plane wave does.
+  double penetration(std::size_t c) const {
+    const PressureTable* table = table_of(c);
+    const double depth = pressure(c) / stiffness_per_area(c);
+    return table == nullptr ? depth : table->depth(depth * table->largest_slope());
+  }
+
   void check_stiffness(std::size_t c) {
     const Approach& a = approaches_[c];
-    if (is_spring(c) || a.stiffness <= 0.0 || area(c) <= 0.0) return;
-    const double per_area = a.stiffness / area(c), penetration = pressure(c) / per_area;
+    if (is_spring(c) || stiffness_per_area(c) <= 0.0) return;
+    const PressureTable* table = table_of(c);
+    const double depth = penetration(c);
+    if (!std::isfinite(depth)) {
+      say(" is soft: impact at {:.4g} presses by about {:.3g}, more than the last of its pressures, which is level: give "
+          "the law higher ones",
+          a.speed, pressure(c));
+      return;
+    }
+    const double of_reached = table == nullptr ? 1.0 : table->largest_slope(depth) / table->largest_slope();
+    const double per_area = stiffness_per_area(c) * of_reached;
     // What the user chose is held to a hundredth of a cell; what was chosen from the cells to what the verdict allows.
     const double most = given(c).springs()->stiffness ? 0.01 : 0.05;
-    if (penetration > most * cell_ && !hardens(c)) {
-      say(" is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); stiffness {:.3g} instead of "
-          "{:.3g} would keep it below 1 %",
-          a.speed, penetration, penetration / cell_, stiffness(c) * penetration / (0.01 * cell_), stiffness(c));
+    if (depth > most * cell_ && !hardens(c)) {
+      const std::string remedy = table != nullptr
+                                     ? std::string("are its pressures those of the units of this case?")
+                                     : fmt::format("stiffness {:.3g} instead of {:.3g} would keep it below 1 %",
+                                                   stiffness(c) * depth / (0.01 * cell_), stiffness(c));
+      say(" is soft: impact at {:.4g} will penetrate by about {:.3g} ({:.3g} cells); {}", a.speed, depth, depth / cell_,
+          remedy);
     }
     if (per_area > 20.0 * waves_.modulus / cell_) {
       say(" is {:.3g} times stiffer than a cell (modulus / cell length = {:.3g}): more stiffness brings noise and, in "

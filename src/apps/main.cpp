@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -212,6 +213,18 @@ ExitCode dispatch(const CLI::App& app, const Arguments& arguments) {
   return ExitCode::good;
 }
 
+/// In place of CLI::PositiveNumber, whose message has the 309 digits of the largest double.
+const CLI::Validator& positive_number() {
+  static const CLI::Validator is_positive(
+      [](std::string& word) {
+        double value = 0.0;
+        const bool is_one = CLI::detail::lexical_cast(word, value) && value > 0.0 && std::isfinite(value);
+        return is_one ? std::string() : fmt::format("found {}; expected a number > 0", word);
+      },
+      "POSITIVE");
+  return is_positive;
+}
+
 CLI::Option* add_format(CLI::App* command, Arguments& arguments, const std::string& help) {
   return command->add_option("--format", arguments.format, help)->check(CLI::IsMember(carom::table_formats()));
 }
@@ -234,10 +247,8 @@ void add_convert(CLI::App& app, Arguments& arguments) {
 void add_init(CLI::App& app, Arguments& arguments) {
   CLI::App* command = app.add_subcommand("init", "Begin a case of one's own with one that comes with the program");
   command->add_option("name", arguments.folder, "Folder to write, with the case and its mesh")->required();
-  command
-      ->add_option("--like", arguments.example,
-                   "Case to begin with, such as taylor_bar/rigid_wall; a name that is none shows all of them")
-      ->required();
+  command->add_option("--like", arguments.example,
+                      "Case to begin with, such as taylor_bar/rigid_wall; without it, all of them are shown");
 }
 
 void add_compare(CLI::App& app, Arguments& arguments) {
@@ -251,7 +262,7 @@ void add_compare(CLI::App& app, Arguments& arguments) {
   list("--stiffness", arguments.choices.stiffnesses, "Stiffnesses, set in every [[contact]]");
   list("--cells", arguments.choices.cells, "Cells along the longest edge of each block")
       ->check(CLI::Range(1, 1'000'000));
-  list("--courant", arguments.choices.courants, "Steps, over shortest cell / fastest wave")->check(CLI::PositiveNumber);
+  list("--courant", arguments.choices.courants, "Steps, over shortest cell / fastest wave")->check(positive_number());
   list("--refine", arguments.choices.refinements, "How often every cell is cut in halves (mesh files too)")
       ->check(CLI::Range(0, 6));
   command->add_option("--reference", arguments.choices.reference,
@@ -287,7 +298,7 @@ void add_material(CLI::App& app, Arguments& arguments) {
       ->check(CLI::Range(1, 1'000'000))
       ->check(not_of_tables);
   command->add_option("--rate", arguments.path.rate, "Rate of that strain per unit of time (default: 1)")
-      ->check(CLI::PositiveNumber)
+      ->check(positive_number())
       ->check(not_of_tables);
   command->add_option("--measured", arguments.path.measured,
                       "File of rows strain,stress (engineering strain, Cauchy stress) to lay over the curve");
@@ -358,10 +369,14 @@ void introduce() {
       carom::version());
 }
 
-/// Of a word that no command takes: the option that it was meant to be.
+/// Of a word that no command takes: the option, or the command, that was meant.
 std::string unexpected(const CLI::App& app, int argc, const char* const* argv) {
   const std::vector<CLI::App*> chosen = app.get_subcommands();
   if (chosen.empty()) return "";
+  if (const std::vector<std::string> more = chosen.front()->remaining();
+      chosen.front()->get_name() == "compare" && !more.empty() && !more.front().starts_with("-"))
+    return fmt::format("carom compare takes one case, of which it runs variants, and found \"{}\" as well; {}",
+                       more.front(), carom::compare::two_runs_remedy);
   std::vector<std::string> known;
   for (const CLI::Option* option : chosen.front()->get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);

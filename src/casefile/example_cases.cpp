@@ -85,8 +85,12 @@ std::string examples_folder(const std::string& program) {
   const std::array<fs::path, 2> places{beside / "../share/carom", beside / "../.."};
   for (const fs::path& place : places)
     if (fs::is_directory(place / kShelves[0].folder, error)) return place.lexically_normal().string();
-  throw CaseError({places[0].lexically_normal().string()}, "", "no examples beside the program",
-                  "a folder \"cases\" there, as an installation makes it");
+  const std::string there = places[0].lexically_normal().string();
+  throw CaseError(
+      {there}, "", "no examples beside the program", "a folder \"cases\" there, as an installation makes it",
+      fmt::format("Has the program been copied out of its folder? Start it where it was installed or built, or "
+                  "copy \"cases\" and \"examples\" of the sources into {}.",
+                  there));
 }
 
 std::vector<std::string> example_names(const std::string& examples) {
@@ -101,8 +105,8 @@ BegunCase begin_case(const std::string& examples, const std::string& like, const
   if (found == files.end()) {
     const std::vector<std::string> names = example_names(examples);
     const std::string near = nearest(like, names);
-    throw CaseError({}, "--like", toml_string(like), "one of" + by_folders(names),
-                    near.empty() ? "" : fmt::format("Did you mean {}?", near));
+    throw CaseError({}, "--like", like.empty() ? "no case to begin with" : toml_string(like),
+                    "one of" + by_folders(names), near.empty() ? "" : fmt::format("Did you mean {}?", near));
   }
   const fs::path own = (fs::path(folder) / "").parent_path();  // without a slash at its end
   require_empty(own);

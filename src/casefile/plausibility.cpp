@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "casefile/document.hpp"
 
@@ -47,10 +48,11 @@ class Lint {
  public:
   explicit Lint(const Case& given) : case_(given) {}
 
-  std::vector<std::string> run() {
+  std::vector<std::string> run(std::vector<UnitSign> further) {
     for (const CaseMaterial& m : case_.materials) check_material(m);
     check_speeds();
     for (const CaseLoad& load : case_.loads) check_gravity(load);
+    say_signs(std::move(further));
     check_twice();
     for (const CaseContact& contact : case_.contacts) {
       check_friction(contact);
@@ -63,6 +65,37 @@ class Lint {
 
  private:
   void say(const Location& where, const std::string& text) { lines_.push_back(place(where) + ": " + text); }
+
+  void show(const Location& where, std::string what, std::string cure, std::optional<UnitSystem> fits = {}) {
+    signs_.push_back({where, std::move(what), std::move(cure), fits});
+  }
+
+  /// One cause is said once, with everything that shows it.
+  void say_signs(std::vector<UnitSign> further) {
+    const auto is_same = [](const UnitSign& a, const UnitSign& b) {
+      return a.fits ? a.fits == b.fits : a.cure == b.cure;
+    };
+    std::vector<std::vector<UnitSign>> groups;
+    for (UnitSign& sign : signs_) {
+      const auto known = std::ranges::find_if(groups, [&](const auto& group) { return is_same(group.front(), sign); });
+      (known != groups.end() ? *known : groups.emplace_back()).push_back(std::move(sign));
+    }
+    const bool is_shown = !groups.empty();
+    for (UnitSign& sign : further) (is_shown ? groups.front() : groups.emplace_back()).push_back(std::move(sign));
+    for (const std::vector<UnitSign>& group : groups) say_group(group);
+  }
+
+  void say_group(const std::vector<UnitSign>& group) {
+    const UnitSign& first = group.front();
+    if (group.size() == 1) return say(first.where, first.what + "; " + first.cure);
+    std::string list;
+    for (const UnitSign& sign : group)
+      list += fmt::format("{}{} (line {})", list.empty() ? "" : "; ", sign.what, sign.where.line);
+    const std::string cure = first.fits ? fmt::format("did you mean units = {} instead of {}?",
+                                                      toml_string(name(*first.fits)), toml_string(name(case_.units)))
+                                        : first.cure;
+    say(first.where, fmt::format("{} {} values show it: {}", cure, group.size(), list));
+  }
 
   std::string with_unit(double value, Dimension dimension) const {
     return fmt::format("{:.4g} {}", value, unit_name(dimension, case_.units));
@@ -80,19 +113,23 @@ class Lint {
                       "of Abaqus has the other sign, is it one?",
                       toml_key(m.name), m.damage->D3));
     if (plausible(m, case_.units)) return;
-    std::string hint;
+    Hint hint;
     for (const UnitSystem other : unit_systems) {
       if (other != case_.units && plausible(m, other))
-        hint = fmt::format("it would fit {}: {}", name(other), did_you_mean(other));
+        hint = {fmt::format("it would fit {}: {}", name(other), did_you_mean(other)), other};
     }
-    if (hint.empty()) hint = mixed_units_hint(m);
-    const std::size_t before = lines_.size();
-    check_value(m, m.rho.where, *m.rho, density, hint);
+    if (!hint.fits) hint.cure = mixed_units_hint(m);
     const double E = m.made().at_rest().E;
     const Location& where = m.place_of("E");
-    check_value(m, where, E, modulus, hint);
-    if (lines_.size() == before) check_value(m, where, std::sqrt(E / *m.rho), wave_speed, hint);
+    const bool is_said = check_value(m, m.rho.where, *m.rho, density, hint);
+    if (!check_value(m, where, E, modulus, hint) && !is_said)
+      check_value(m, where, std::sqrt(E / *m.rho), wave_speed, hint);
   }
+
+  struct Hint {
+    std::string cure{};
+    std::optional<UnitSystem> fits{};
+  };
 
   /// Is one of the two values in the unit of another system?
   std::string mixed_units_hint(const CaseMaterial& m) const {
@@ -109,28 +146,37 @@ class Lint {
     return "";
   }
 
-  void check_value(const CaseMaterial& m, const Location& where, double value, const Plausible& range,
-                   const std::string& hint) {
-    if (within(value, range, case_.units)) return;
+  /// True where something was found.
+  bool check_value(const CaseMaterial& m, const Location& where, double value, const Plausible& range,
+                   const Hint& hint) {
+    if (within(value, range, case_.units)) return false;
     const double ratio = value * si_factor(range.dimension, case_.units) / range.example_value;
     const std::string distance =
         ratio < 1.0 ? fmt::format("{:.2g} times below", 1.0 / ratio) : fmt::format("{:.2g} times above", ratio);
-    say(where, fmt::format("materials.{}: {} {} is {} that of {}{}", toml_key(m.name), range.what,
-                           with_unit(value, range.dimension), distance, range.example,
-                           hint.empty() ? "; is it meant?" : "; " + hint));
+    const std::string what = fmt::format("materials.{}: {} {} is {} that of {}", toml_key(m.name), range.what,
+                                         with_unit(value, range.dimension), distance, range.example);
+    if (hint.cure.empty())
+      say(where, what + "; is it meant?");
+    else
+      show(where, what, hint.cure, hint.fits);
+    return true;
   }
 
   void check_speed(const Location& where, const std::string& key, double value) {
     if (within(value, speed, case_.units)) return;
-    std::string hint;
+    std::optional<UnitSystem> fits;
     for (const UnitSystem other : unit_systems) {
       const bool materials_fit = std::all_of(case_.materials.begin(), case_.materials.end(),
                                              [other](const CaseMaterial& m) { return plausible(m, other); });
-      if (other != case_.units && within(value, speed, other) && materials_fit) hint = "; " + did_you_mean(other);
+      if (other != case_.units && within(value, speed, other) && materials_fit) fits = other;
     }
-    say(where,
-        fmt::format("{}: {} is {:.4g} m/s, faster than elastic impact makes sense{}", key,
-                    with_unit(value, Dimension::velocity), value * si_factor(Dimension::velocity, case_.units), hint));
+    const std::string what =
+        fmt::format("{}: {} is {:.4g} m/s, faster than elastic impact makes sense", key,
+                    with_unit(value, Dimension::velocity), value * si_factor(Dimension::velocity, case_.units));
+    if (fits)
+      show(where, what, did_you_mean(*fits), fits);
+    else
+      say(where, what);
   }
 
   void check_speeds() {
@@ -163,9 +209,14 @@ class Lint {
     for (const UnitSystem other : unit_systems) {
       if (!is_earth(other)) continue;
       const double here = standard_gravity / si_factor(Dimension::acceleration, case_.units);
-      say(load.where, fmt::format("load.gravity: {} is the earth's gravity in {}, but in {} that is {}",
-                                  with_unit(value, Dimension::acceleration), name(other), name(case_.units),
-                                  with_unit(here, Dimension::acceleration)));
+      const std::string what = fmt::format("load.gravity: {} is the earth's gravity in {}, but in {} that is {}",
+                                           with_unit(value, Dimension::acceleration), name(other), name(case_.units),
+                                           with_unit(here, Dimension::acceleration));
+      const bool is_of_all = std::ranges::any_of(signs_, [&](const UnitSign& sign) { return sign.fits == other; });
+      if (is_of_all)
+        show(load.where, what, did_you_mean(other), other);
+      else
+        say(load.where, what);
       return;
     }
   }
@@ -256,13 +307,14 @@ class Lint {
   }
 
   const Case& case_;
+  std::vector<UnitSign> signs_;
   std::vector<std::string> lines_;
 };
 
 }  // namespace
 
-std::vector<std::string> plausibility_warnings(const Case& given) {
-  return Lint(given).run();
+std::vector<std::string> plausibility_warnings(const Case& given, std::vector<UnitSign> further) {
+  return Lint(given).run(std::move(further));
 }
 
 }  // namespace carom

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <optional>
+#include <string>
 #include <tuple>
 
 #include "base/text_lines.hpp"
@@ -87,6 +89,56 @@ std::string_view line_of(std::string_view text, int number) {
   return take_line(text, at);
 }
 
+/// The number at the beginning of a word as TOML has it; nothing where it is one already, or none.
+std::optional<std::string> mended_number(std::string_view word) {
+  const auto take = [&word](std::string_view of) {
+    const std::string_view taken = word.substr(0, word.find_first_not_of(of));
+    word.remove_prefix(taken.size());
+    return std::string(taken);
+  };
+  const auto take_one = [&word](std::string_view of) {
+    const bool is_there = !word.empty() && of.find(word.front()) != std::string_view::npos;
+    std::string taken(word.substr(0, is_there ? 1 : 0));
+    word.remove_prefix(taken.size());
+    return taken;
+  };
+  constexpr std::string_view digits = "0123456789";
+  const std::string_view given = word;
+  std::string text = take_one("+-");
+  const std::string whole = take(digits), point = take_one("."), part = take(digits);
+  if (whole.empty() && part.empty()) return std::nullopt;
+  std::string exponent = take_one("eEdD");
+  if (!exponent.empty()) {
+    exponent = "e" + take_one("+-");
+    const std::string power = take(digits);
+    exponent += power.empty() ? "0" : power;
+  }
+  if (!word.empty()) return std::nullopt;
+  text += whole.empty() ? "0" : whole;
+  if (!point.empty()) text += "." + (part.empty() ? "0" : part);
+  text += exponent;
+  return text == given ? std::nullopt : std::optional(text);
+}
+
+/// The first number of a line, outside of texts, that TOML has in another form, and how to write it.
+std::string remedy_of_number(std::string_view values) {
+  constexpr std::string_view between = " \t\r=,[]{}";
+  while (!values.empty()) {
+    if (const char c = values.front(); c == '"' || c == '\'') {
+      values.remove_prefix(std::min(values.find(c, 1), values.size() - 1) + 1);
+      continue;
+    }
+    const std::string_view word = values.substr(0, values.find_first_of(between));
+    if (const std::optional<std::string> mended = mended_number(word))
+      return fmt::format(
+          "Numbers have digits on both sides of their point, and e before an exponent: write {} instead "
+          "of {}.",
+          *mended, word);
+    values.remove_prefix(std::max<std::size_t>(word.size(), 1));
+  }
+  return {};
+}
+
 /// What helps where a line `key = value` is no TOML.
 std::string remedy_of(std::string_view line) {
   line = line.substr(0, line.find('#'));
@@ -95,11 +147,11 @@ std::string remedy_of(std::string_view line) {
                          value = trimmed(line.substr(std::min(equals + 1, line.size())));
   const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   const std::size_t end_of_number = value.find_first_not_of("+-.0123456789eE ");
-  if (!value.empty() && !is_letter(value[0]) && end_of_number != 0 && end_of_number != std::string_view::npos) {
-    if (value[end_of_number] == ',') return "Numbers have a point, and nothing between thousands: 210000.0, 2.1e5.";
-    if (is_letter(value[end_of_number]))
-      return "Numbers stand without a unit: all are in the system that `units` names.";
-  }
+  const bool is_number = !value.empty() && !is_letter(value[0]) && end_of_number != 0;
+  const char behind = is_number && end_of_number != std::string_view::npos ? value[end_of_number] : '\0';
+  if (behind == ',') return "Numbers have a point, and nothing between thousands: 210000.0, 2.1e5.";
+  if (std::string number = remedy_of_number(value.empty() ? line : value); !number.empty()) return number;
+  if (is_letter(behind)) return "Numbers stand without a unit: all are in the system that `units` names.";
   if (!value.empty() && is_letter(value[0]) && value.find_first_of("\"'[]{},") == std::string_view::npos)
     return fmt::format("Texts stand in quotes: {} = \"{}\"", key, value);
   return "Check quotes, brackets and commas here.";

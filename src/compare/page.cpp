@@ -161,8 +161,9 @@ std::string plots(const Comparison& c) {
 std::string make_page(const Comparison& comparison, const std::string& case_text) {
   const std::vector<Chart> histories = make_histories(comparison);
   const std::string content =
-      header(comparison) + main_table(comparison) + plots(comparison) + chart_figures(histories) +
-      remarks_table(failures(comparison), "Not compared", "why") +
+      header(comparison) + main_table(comparison) +
+      remarks_table(observations(comparison), "What strikes in these numbers", "what") + plots(comparison) +
+      chart_figures(histories) + remarks_table(failures(comparison), "Not compared", "why") +
       remarks_table(changes(comparison), "Changes that the choices brought with them", "change") + "<footer>\n" +
       foldable("The case that was varied", case_text) +
       foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence) + "</footer>\n";

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace carom::compare {
 
@@ -146,6 +147,12 @@ std::vector<Remark> changes(const Comparison& comparison) {
   return remarks;
 }
 
+std::vector<Remark> observations(const Comparison& comparison) {
+  std::vector<Remark> remarks = equal_runs(comparison.results, comparison.quantity);
+  for (Remark& remark : worsening_orders(comparison.results, comparison.quantity)) remarks.push_back(std::move(remark));
+  return remarks;
+}
+
 DataTable variants_table(const Comparison& comparison) {
   const std::string of = comparison.quantity.empty() ? "" : " " + comparison.quantity;
   DataTable table{comparison.common.empty() ? "" : "in all variants: " + comparison.common,
@@ -171,7 +178,8 @@ DataTable variants_table(const Comparison& comparison) {
 
 std::string remarks_text(const Comparison& comparison) {
   std::string text;
-  for (const Remark& remark : failures(comparison)) text += fmt::format("{}\n  {}\n", remark.variants, remark.text);
+  for (const auto& remarks : {failures(comparison), observations(comparison)})
+    for (const Remark& remark : remarks) text += fmt::format("{}\n  {}\n", remark.variants, remark.text);
   if (!comparison.quantity.empty())
     text += fmt::format("{} {}\n", comparison.reference == ReferenceKind::exact ? "errors against" : "differences to",
                         comparison.reference_text());

@@ -6,6 +6,7 @@
 
 #include "compare/convergence.hpp"
 #include "compare/measure.hpp"
+#include "compare/observations.hpp"
 #include "compare/recommend.hpp"
 #include "output/data_table.hpp"
 
@@ -26,20 +27,17 @@ struct Comparison {
   std::string reference_text() const;
 };
 
-/// What was said about variants.
-struct Remark {
-  std::string variants;  ///< labels, separated by semicolons
-  std::string text;
-};
-
 /// Why variants were not compared; those of one reason together.
 std::vector<Remark> failures(const Comparison& comparison);
 /// What the choices brought with them; likewise.
 std::vector<Remark> changes(const Comparison& comparison);
+/// What strikes in the numbers (observations.hpp).
+std::vector<Remark> observations(const Comparison& comparison);
 
 /// The variants that were compared, with as many digits as are to be read.
 DataTable variants_table(const Comparison& comparison);
-/// What is said below it: the other variants with their reasons, what the errors are against, the recommendation.
+/// What is said below it: the other variants with their reasons, what strikes in the numbers, what the errors are
+/// against, the recommendation.
 std::string remarks_text(const Comparison& comparison);
 /// One row per variant, also of those that were not run; empty where there is no number.
 std::string csv_table(const Comparison& comparison);

@@ -167,6 +167,24 @@ Case accept_with_step(Draft& draft, const Base& base, double element_step) {
   return draft.accept();
 }
 
+bool has_any_inertia(const Case& given) {
+  return has_inertia(*given.scheme.kind) ||
+         std::ranges::any_of(given.stages, [](const CaseStage& stage) { return has_inertia(*stage.scheme.kind); });
+}
+
+/// Statics beside what has inertia.
+void refuse_statics(const Base& base, std::vector<Variant>& variants) {
+  const auto moves = [](const Variant& v) { return v.refusal.empty() && v.has_inertia; };
+  if (!base.has_inertia && std::ranges::none_of(variants, moves)) return;
+  for (Variant& v : variants) {
+    if (!v.refusal.empty() || v.has_inertia) continue;
+    v.refusal = reason(CaseError({}, "scheme.kind", fmt::format("\"{}\" beside schemes that have inertia", v.scheme),
+                                 "schemes that have it",
+                                 "Statics has neither waves nor an impact: it is no reference for dynamics. Compare "
+                                 "statics with statics."));
+  }
+}
+
 void build(Variant& v, const Base& base, ElementSteps& steps) {
   Draft draft(base);
   if ((v.choice.scheme || v.choice.enforcement || v.choice.courant) && find(base.root, "stage") != nullptr) {
@@ -189,6 +207,7 @@ void build(Variant& v, const Base& base, ElementSteps& steps) {
   set_key(draft.root(), "output", "fields", {List{}, {}});
   const Case accepted = accept_with_step(draft, base, v.element_step);
   v.enforcement = name(**accepted.scheme.enforcement);
+  v.has_inertia = has_any_inertia(accepted);
   if (v.choice.stiffness && !uses_stiffness(accepted)) {
     v.choice.stiffness.reset();
     draft.notes().emplace_back("no contact takes a stiffness");
@@ -235,10 +254,14 @@ Base base_of(Node root, const std::string& file) {
           cells,
           read.mesh.refine,
           read.title.empty() ? file : read.title,
-          std::string(name(read.units))};
+          std::string(name(read.units)),
+          has_any_inertia(read)};
 }
 
 Base read_base(const std::string& file) {
+  if (std::filesystem::is_directory(file))
+    throw CaseError({file}, "", "a folder", "a case file (.toml), of which variants are run",
+                    fmt::format("Of runs that are done, {}.", two_runs_remedy));
   read_case(file);  // says what is wrong with the file itself
   std::ifstream stream(file, std::ios::binary);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
@@ -270,6 +293,7 @@ std::vector<Variant> make_variants(const Base& base, const Options& options, con
     if (v.refusal.empty()) v.case_text = finished(v, base, folder);
     variants.push_back(std::move(v));
   }
+  refuse_statics(base, variants);
   return variants;
 }
 

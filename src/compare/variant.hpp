@@ -17,7 +17,12 @@ struct Base {
   int cells = 0;   ///< along the longest edge of the first block; 0 for mesh files
   int refine = 0;  ///< mesh.refine
   std::string title{}, units{};
+  bool has_inertia = false;  ///< in one of its stages
 };
+
+/// What those want who give results folders instead of a case.
+inline constexpr const char* two_runs_remedy =
+    "the results folders of two runs are laid over each other by `carom report A B`";
 
 /// Checks the case, whose files are looked for beside `file`. Throws CaseError.
 Base base_of(Node root, const std::string& file);
@@ -32,12 +37,14 @@ struct Variant {
   std::string scheme, enforcement;  ///< as in the case or the choice; the enforcement that the scheme takes
   int cells = 0;              ///< along the longest edge; of mesh files relative to the file's, 0 where none is refined
   double element_step = 0.0;  ///< of its mesh
-  std::string case_text;      ///< TOML
-  std::string refusal;        ///< why it is not allowed; "" when it is
+  bool has_inertia = false;
+  std::string case_text;           ///< TOML
+  std::string refusal;             ///< why it is not allowed; "" when it is
   std::vector<std::string> notes;  ///< keys that were left out or chosen
 };
 
-/// The variants of all combinations, in their order; combinations that come to the same case are kept once.
+/// The variants of all combinations, in their order; combinations that come to the same case are kept once. Statics is
+/// refused where the case or another variant has inertia: it has neither waves nor an impact to compare.
 ///
 /// Changes: `scheme` and `enforcement` set these keys of [scheme] (edit.hpp, set_scheme); `stiffness` is set in every
 /// [[contact]], and left out with a note where the enforcement uses none; `cells`: set_cells; `courant` sets time.step

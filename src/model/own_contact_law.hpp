@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -40,6 +41,19 @@ class PressureTable {
     return energy_[i] + (pressure_[i] + 0.5 * slope_[i] * beyond) * beyond;
   }
   double largest_slope() const { return *std::ranges::max_element(slope_); }
+  /// Of the pieces down to a depth.
+  double largest_slope(double depth) const {
+    return *std::max_element(slope_.begin(), slope_.begin() + static_cast<std::ptrdiff_t>(piece(depth)) + 1);
+  }
+  double last_depth() const { return depth_.back(); }
+  /// The least depth of a pressure >= 0; infinite where the last piece is level and the pressure above it.
+  double depth(double pressure) const {
+    const auto next = std::lower_bound(pressure_.begin() + 1, pressure_.end() - 1, pressure);
+    const auto i = static_cast<std::size_t>(next - pressure_.begin()) - 1;
+    if (pressure <= pressure_[i]) return depth_[i];
+    return slope_[i] > 0.0 ? depth_[i] + (pressure - pressure_[i]) / slope_[i]
+                           : std::numeric_limits<double>::infinity();
+  }
 
  private:
   std::size_t piece(double depth) const {

@@ -1,5 +1,6 @@
 #include "python/callables.hpp"
 
+#include <fmt/format.h>
 #include <pybind11/numpy.h>
 
 #include <algorithm>
@@ -74,7 +75,7 @@ std::vector<double> coefficients(const std::string& name, const py::object& give
   if (size == n) std::copy(found.data(), found.data() + n, mu.begin());
   for (const double value : mu)
     if (!std::isfinite(value) || value < 0.0)
-      throw py::value_error(name + " has returned " + std::to_string(value) + ", and numbers >= 0 are wanted");
+      throw py::value_error(name + " has returned " + fmt::to_string(value) + ", and numbers >= 0 are wanted");
   return mu;
 }
 
@@ -87,8 +88,8 @@ std::function<double(double)> called(const std::string& name, py::object callabl
                      [&](const py::object& found) {
                        const auto value = py::cast<double>(found);
                        if (std::isfinite(value)) return value;
-                       throw py::value_error(held->name() + " has returned " + std::to_string(value) +
-                                             " at t = " + std::to_string(t));
+                       throw py::value_error(held->name() + " has returned " + fmt::to_string(value) +
+                                             " at t = " + fmt::to_string(t));
                      });
   };
 }

@@ -280,9 +280,11 @@ Summary Run::finish() {
   summary.warnings = watched_->warnings;
   summary.doubts = watched_->doubts;
   if (!watched_->watches.folds.warnings().empty()) summary.doubts.emplace_back("a cell has folded");
-  if (std::optional<Doubt> doubt = watched_->stroke.doubt()) {
-    summary.doubts.push_back(std::move(doubt->brief));
-    summary.warnings.push_back(std::move(doubt->warning));
+  std::vector<Doubt> seen_doubts = watched_->law_depth.doubts(simulation_);
+  if (std::optional<Doubt> doubt = watched_->stroke.doubt()) seen_doubts.push_back(std::move(*doubt));
+  for (Doubt& doubt : seen_doubts) {
+    summary.doubts.push_back(std::move(doubt.brief));
+    summary.warnings.push_back(std::move(doubt.warning));
   }
   summary.notes = watched_->notes;
   summary.outcome = outcome_;

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "advise/law_depth_watch.hpp"
 #include "advise/stroke_watch.hpp"
 #include "march/march.hpp"
 #include "march/watches.hpp"
@@ -19,6 +20,7 @@ struct WatchedMarch {
     march.add(recorder);
     watches.look_at(march);
     march.add(stroke);
+    march.add(law_depth);
   }
   WatchedMarch(const WatchedMarch&) = delete;
   WatchedMarch& operator=(const WatchedMarch&) = delete;
@@ -29,6 +31,7 @@ struct WatchedMarch {
     archive("recorder", x.recorder);
     fields(archive, x.watches);
     archive("stroke", x.stroke);
+    archive("law_depth", x.law_depth);
     archive("case_file", x.case_file);
     archive("warnings", x.warnings);
     archive("doubts", x.doubts);
@@ -39,6 +42,7 @@ struct WatchedMarch {
   Recorder recorder;
   Watches watches;
   StrokeWatch stroke;
+  LawDepthWatch law_depth;
   std::string case_file;                     ///< as the user named it
   std::vector<std::string> warnings, notes;  ///< of the case, before the first step
   std::vector<std::string> doubts;           ///< Summary::doubts

@@ -98,6 +98,36 @@ class CommandLine(unittest.TestCase):
         self.assertIn('error: --like: found "tutorial/phones"; expected one of\n  balls/oblique\n', error)
         self.assertTrue(error.endswith("Did you mean tutorial/phone?\n"), error)
         self.assertFalse(pathlib.Path("mine").exists())
+        code, out, error = carom("init", "mine")
+        self.assertEqual((code, out), (2, ""))
+        self.assertIn("error: --like: found no case to begin with; expected one of\n  balls/oblique\n", error)
+
+    def test_ranges_of_options_are_said_in_few_digits(self):
+        for word in ("-1", "0", "abc", "inf"):
+            code, _, error = carom("compare", "case.toml", "--courant", word)
+            self.assertEqual(code, 2)
+            self.assertTrue(error.startswith(f"--courant: found {word}; expected a number > 0\n"), error)
+
+    def test_a_program_without_its_examples_says_where_they_go(self):
+        with tempfile.TemporaryDirectory() as folder:
+            alone = pathlib.Path(folder) / "usr/local/bin/carom"
+            alone.parent.mkdir(parents=True)
+            shutil.copy(CAROM, alone)
+            done = subprocess.run([alone, "init", "mine", "--like", "balls/oblique"], cwd=folder, capture_output=True, text=True, check=False)
+        self.assertEqual((done.returncode, done.stdout), (2, ""))
+        self.assertIn("no examples beside the program", done.stderr)
+        self.assertIn("Start it where it was installed or built, or copy", done.stderr)
+
+    def test_two_runs_in_the_place_of_a_case_are_sent_to_report(self):
+        with tempfile.TemporaryDirectory() as folder:
+            code, out, error = carom("compare", folder)
+            self.assertEqual((code, out), (2, ""))
+            self.assertEqual(error, f"error: {folder}: found a folder; expected a case file (.toml), of which variants are run. Of runs that are done, "
+                                    "the results folders of two runs are laid over each other by `carom report A B`.\n")
+        code, out, error = carom("compare", "out/a", "out/b", "--scheme", "newmark")
+        self.assertEqual((code, out), (2, ""))
+        self.assertEqual(error, 'error: carom compare takes one case, of which it runs variants, and found "out/b" as well; the results folders of two '
+                                "runs are laid over each other by `carom report A B`\n")
 
     def test_little_address_space_is_said_and_does_not_hang(self):
         """OpenBLAS asks again for ever: 150 MB are too little for it, 600 MB enough for a block."""

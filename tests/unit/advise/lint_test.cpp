@@ -77,6 +77,26 @@ TEST(Lint, SaysHowDeepARoundObstacleSinksIntoAFace) {
   }
 }
 
+// The wave presses with rho c v = 1.5 x 1.34 x 0.1 = 0.2, half of the first of the pressures, 0.4 at a depth of 0.04: a
+// depth of 0.02, with a slope of 10. That of the last piece, (1e6 - 0.4) / 0.96, is never reached: it bounds the step,
+// and says nothing of what a cell of modulus 2.7 feels. A foot has nodes of a quarter of the face and of a cell.
+TEST(Lint, JudgesALawOfPressureByTheDepthsThatAreReached) {
+  const auto floor = [](const std::string& law) {
+    return "[[contact]]\nname = \"floor\"\nkind = \"plane\"\ngroup = \"FOOT\"\npoint = [0.0, 0.0, 0.0]\n"
+           "normal = [0.0, 0.0, 1.0]\n" +
+           law + moving(-0.1);
+  };
+  const std::string steep = floor("depths = [0.04, 1.0]\npressures = [0.4, 1e6]\n");
+  EXPECT_TRUE(is_warned(steep, "the steepest piece of its pressures makes the explicit step"));
+  EXPECT_TRUE(is_warned(steep, "impact at 0.1 will reach a depth of about 0.02 alone"));
+  EXPECT_FALSE(is_warned(steep, "times stiffer than a cell"));
+  EXPECT_TRUE(is_warned(floor("depths = [0.04, 1.0]\npressures = [40.0, 1e6]\n"), "times stiffer than a cell"));
+  EXPECT_TRUE(is_warned(floor("depths = [0.04, 1.0]\npressures = [0.04, 0.4]\n"),
+                        "is soft: impact at 0.1 will penetrate by about 0.46"));
+  EXPECT_TRUE(
+      is_warned(floor("depths = [0.04, 1.0]\npressures = [0.1, 0.1]\n"), "more than the last of its pressures"));
+}
+
 /// Waves of speed sqrt(2 x 0.7 / (1.3 x 0.4) / 1.5) = 1.34 cross a cell of 1 in 0.75.
 TEST(Lint, SaysWhenNoWaveCrossesACell) {
   const auto is_short = [](const std::string& end) {

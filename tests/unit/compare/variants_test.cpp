@@ -128,6 +128,18 @@ TEST_F(CompareVariants, SayWhyACombinationIsNotAllowed) {
   EXPECT_TRUE(all[2].refusal.starts_with("scheme.beta: found 0.7")) << all[2].refusal;
 }
 
+// Statics has no inertia, so no waves: its force of an impact is another quantity.
+TEST_F(CompareVariants, LeaveStaticsOutBesideInertia) {
+  const std::vector<Variant> all = variants(options_of({"newmark", "statics"}, {}, {}));
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_EQ(all[0].refusal, "");
+  EXPECT_TRUE(all[1].refusal.starts_with("scheme.kind: found \"statics\" beside schemes that have inertia"))
+      << all[1].refusal;
+  Base at_rest = read_base(std::string(CAROM_SOURCE_DIR) + "/cases/hertz/cylinder.toml");
+  ASSERT_FALSE(at_rest.has_inertia);
+  EXPECT_EQ(make_variants(at_rest, {}, "folder")[0].refusal, "");
+}
+
 TEST_F(CompareVariants, TakeTheEnforcementThatTheSchemeTakes) {
   Base penalty = base_;
   set_key(penalty.root, "scheme", "enforcement", {std::string("penalty"), {}});

@@ -423,5 +423,27 @@ TEST(Stroke, IsDoubtedInStaticsAlone) {
   EXPECT_FALSE(is_doubted("newmark"));
 }
 
+// A block at 1 on a law that ends at a depth of 0.1: rho c v = 1.5 x 1.34 presses it deeper than the 0.5 there; a law
+// that goes down to 10, which is three times its height, is not left.
+TEST(LawDepth, IsDoubtedBeyondItsEnd) {
+  const auto warnings = [](const std::string& law) {
+    const TemporaryCase one(case_of_block(
+        "[[initial]]\npart = \"body\"\nvelocity = [0.0, 0.0, -1.0]\n[[contact]]\nname = \"floor\"\nkind = \"plane\"\n"
+        "group = \"FOOT\"\npoint = [0.0, 0.0, 0.0]\nnormal = [0.0, 0.0, 1.0]\n" +
+        law + "[guards]\nrotation_stop = 90.0\n[scheme]\nkind = \"central_differences\"\n[time]\nend = 0.5\n"));
+    one.run();
+    std::vector<std::string> found = read_summary((one.results() / "summary.json").string()).warnings;
+    std::erase_if(found, [](const std::string& w) { return w.find("was pressed to a depth of") == std::string::npos; });
+    return found;
+  };
+  EXPECT_TRUE(warnings("depths = [0.1, 10.0]\npressures = [0.5, 50.0]\n").empty());
+  const std::vector<std::string> beyond = warnings("depths = [0.1]\npressures = [0.5]\n");
+  ASSERT_EQ(beyond.size(), 1U);
+  EXPECT_NE(beyond[0].find("contact \"floor\" was pressed to a depth of"), std::string::npos) << beyond[0];
+  EXPECT_NE(beyond[0].find("times the last of its `depths`, 0.1: beyond it the last slope was gone on with"),
+            std::string::npos)
+      << beyond[0];
+}
+
 }  // namespace
 }  // namespace carom::run_verdict_test
