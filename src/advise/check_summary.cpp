@@ -122,7 +122,9 @@ std::string count_of(long long n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-std::string describe(const Approach& a, const UnitSystem units) {
+std::string describe(const CaseContact& contact, const Approach& a, const UnitSystem units) {
+  if (const auto* tie = std::get_if<CaseTie>(&contact.of))
+    return tie->tears() ? "holds its sides together until it tears" : "holds its sides together";
   if (!std::isfinite(a.gap)) return "the surfaces are more than a facet apart";
   if (a.gap > 0.0 && std::abs(a.speed) <= a.speed_rounding)
     return fmt::format("gap {:.6g} {}, its sides move together", a.gap, unit_name(Dimension::length, units));
@@ -230,7 +232,7 @@ std::string check_summary(const Simulation& s, const Rehearsal& seen) {
   if (!s.model().equations.empty()) text += fmt::format("  equations {}\n", s.model().equations.size());
   const std::vector<Approach> contacts = approaches(s, state);
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(contacts[i], units));
+    text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(s.given().contacts[i], contacts[i], units));
   const CostEstimate cost = estimate_cost(s, seen);
   for (std::size_t i = 0; i < s.stages().size(); ++i) text += describe(*s.stages()[i], cost.stages[i].steps, s);
   const StableStep stable = s.stable();

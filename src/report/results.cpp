@@ -77,7 +77,7 @@ ReportData read_results(const std::string& results_folder) {
   data.case_text = read_case(folder, data.notes);
   data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
   data.figures = key_figures(tables, data.summary, data.units);
-  data.largest_force_at = time_of_largest_force(tables.contact);
+  data.largest_force_at = time_of_largest_force(tables.contact, data.summary ? data.summary->ties : std::vector<std::string>{});
   data.largest = largest_values(tables, data.summary, data.units);
   data.parts = largest_of_parts(tables.parts, data.units);
   data.spectra = spectrum_plots(tables.spectra, data.summary, data.units);

@@ -25,4 +25,9 @@ DataTable figures_of_runs(const std::vector<NamedRun>& runs);
 DataTable checks_of_runs(const std::vector<NamedRun>& runs);
 DataTable energies_of_runs(const std::vector<NamedRun>& runs);
 
+/// The largest values of contacts and probes, and those of the parts where there are several; of one run with when (and
+/// where), of several with the differences as above.
+DataTable largest_of_runs(const std::vector<NamedRun>& runs);
+DataTable parts_of_runs(const std::vector<NamedRun>& runs);
+
 }  // namespace carom
