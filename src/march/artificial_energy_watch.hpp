@@ -10,10 +10,10 @@
 namespace carom {
 
 /// Watches the hourglass modes of `one_point` cells and artificial viscosity. A part answers too softly, or folds along
-/// its cells, where what its hourglass modes have stored and lost is more than a tenth of its internal energy (strain and
-/// plastic), the largest of the run each: the customary bound (T. Belytschko, W. K. Liu, B. Moran, Nonlinear Finite
-/// Elements for Continua and Structures, 2000, section 8.7, and manuals of explicit programs). `hourglass` of stabilised
-/// cells is the bending that they stand for, and is not judged.
+/// its cells, where what its hourglass modes have stored and lost is more than a tenth of its internal energy (strain
+/// and plastic), the largest of the run each: the customary bound (T. Belytschko, W. K. Liu, B. Moran, Nonlinear Finite
+/// Elements for Continua and Structures, 2000, section 8.7, and manuals of explicit programs). `hourglass` of
+/// stabilised cells is the bending that they stand for, and is not judged.
 class ArtificialEnergyWatch : public Observer {
  public:
   explicit ArtificialEnergyWatch(const Simulation& simulation);
@@ -43,7 +43,7 @@ class ArtificialEnergyWatch : public Observer {
     archive("scale", x.scale_);
   }
 
-  std::vector<std::string> names_;  ///< of the parts of the case that have one-point cells
+  std::vector<std::string> names_;    ///< of the parts of the case that have one-point cells
   std::vector<std::size_t> numbers_;  ///< of them, in Forces::of_parts
   std::vector<Peaks> parts_;
   Peaks all_;

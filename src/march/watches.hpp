@@ -13,7 +13,11 @@ namespace carom {
 /// Some of them stop the run. The simulation outlives them.
 struct Watches {
   Watches(const Simulation& simulation, const March& march)
-      : penetration(simulation.model()), overlap(simulation, march.state()), rotation(simulation), folds(simulation), artificial(simulation) {}
+      : penetration(simulation.model()),
+        overlap(simulation, march.state()),
+        rotation(simulation),
+        folds(simulation),
+        artificial(simulation) {}
 
   /// They outlive the march.
   void look_at(March& march) {

@@ -181,13 +181,7 @@ std::vector<PageView> views_of(std::vector<NamedRun>& runs, std::size_t most_byt
 }  // namespace
 
 std::string tables_of_runs(const std::vector<std::string>& results_folders, const std::string& format) {
-  const std::vector<NamedRun> runs = read_runs(results_folders);
-  std::string text;
-  for (const DataTable& table : {runs.size() > 1 ? input_differences(runs) : DataTable{}, figures_of_runs(runs),
-                                 checks_of_runs(runs), largest_of_runs(runs), parts_of_runs(runs),
-                                 energies_of_runs(runs)})
-    if (!table.rows.empty()) text += (text.empty() ? "" : "\n") + format_table(table, format);
-  return text;
+  return tables_text(read_runs(results_folders), format);
 }
 
 void write_comparison(const std::vector<std::string>& results_folders, const std::string& file) {

@@ -127,9 +127,8 @@ std::string class_of(const CsvTable& filtered, std::string_view column) {
 std::vector<std::string> contacts_with(const CsvTable& contact, std::string_view quantity, const Names& ties,
                                        bool are_ties = false) {
   std::vector<std::string> places = places_with(contact, quantity);
-  std::erase_if(places, [&](const std::string& place) {
-    return (std::ranges::find(ties, place) != ties.end()) != are_ties;
-  });
+  std::erase_if(places,
+                [&](const std::string& place) { return (std::ranges::find(ties, place) != ties.end()) != are_ties; });
   return places;
 }
 
@@ -173,7 +172,7 @@ double crossing_of(const std::optional<Summary>& summary, const std::string& pla
   return 0.0;
 }
 
-constexpr std::string_view peak_depends = "which goes with the contact's stiffness (or the step) and the ringing of a cell";
+constexpr std::string_view of_enforcement = "goes with the contact's stiffness or the step, and a cell's ringing";
 
 /// A force that is no more than its mean over a wave's way through a cell is physical; of any other it is said what
 /// it goes with.
@@ -183,9 +182,9 @@ std::string remark_on_peak(const CsvTable& contact, const std::string& place, co
   const std::string when = "at " + time_text(peak.time, units);
   const std::optional<double> mean = largest_mean(contact, place, crossing);
   if (mean && *mean >= (1.0 - same) * peak.value) return when;
-  if (!mean) return fmt::format("{}; the value of one step, {}", when, peak_depends);
-  return fmt::format("{}; largest mean over {}, a wave's way through a cell there: {}; the peak is of one step, {}", when,
-                     time_text(crossing, units), with_readable_unit(*mean, units.force, 4), peak_depends);
+  if (!mean) return fmt::format("{}, in one step; it {}", when, of_enforcement);
+  return fmt::format("{}; at most {} in the mean of {}, a wave's way through a cell: what is above it {}", when,
+                     with_readable_unit(*mean, units.force, 4), time_text(crossing, units), of_enforcement);
 }
 
 void add_peak_forces(const Tables& tables, const std::optional<Summary>& summary, const Units& units,
@@ -198,13 +197,13 @@ void add_peak_forces(const Tables& tables, const std::optional<Summary>& summary
     const std::string column = place + ".force_x";
     if (tables.contact_filtered && tables.contact_filtered->column(column) != nullptr) {
       const Peak filtered = peak_of(*tables.contact_filtered, place, "force");
-      all.push_back({{fmt::format("Peak force, {}, {}", place, class_of(*tables.contact_filtered, column)),
-                      text(filtered.value),
-                      fmt::format("at {}; {} unfiltered, {}", time_text(filtered.time, units), text(peak.value),
-                                  peak_depends),
-                      filtered.value, units.force},
-                     filtered.value,
-                     place});
+      all.push_back(
+          {{fmt::format("Peak force, {}, {}", place, class_of(*tables.contact_filtered, column)), text(filtered.value),
+            fmt::format("at {}; {} unfiltered, which {}", time_text(filtered.time, units), text(peak.value),
+                        of_enforcement),
+            filtered.value, units.force},
+           filtered.value,
+           place});
       continue;
     }
     all.push_back({{"Peak force, " + place, text(peak.value),

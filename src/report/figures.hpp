@@ -22,11 +22,11 @@ struct KeyFigure {
 
 /// First what does not depend on how contact is enforced: impulse of each contact, how long it was closed, how fast
 /// bodies were before and after. Then its peak force and when: the filtered one where its curve is filtered, else that
-/// of a step, with the largest mean over the time of a wave through a cell there (Summary::crossings) where this is less.
-/// The force of ties, which meet nothing, apart. Of probes' accelerations the filtered peak alone, since nodes of a mesh
-/// shake as no sensor does. Head injury criterion and pulse where they are asked for; the largest stress. From the tables
-/// and the summary, as far as they are there; of many contacts, probes or parts the largest four in the order of the
-/// case, and in one more figure what the others are.
+/// of a step, with the largest mean over the time of a wave through a cell there (Summary::crossings) where this is
+/// less. The force of ties, which meet nothing, apart. Of probes' accelerations the filtered peak alone, since nodes of
+/// a mesh shake as no sensor does. Head injury criterion and pulse where they are asked for; the largest stress. From
+/// the tables and the summary, as far as they are there; of many contacts, probes or parts the largest four in the
+/// order of the case, and in one more figure what the others are.
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
 
 /// When the largest force of all contacts is, of ties where nothing else has one; nothing where there is none.
@@ -36,7 +36,7 @@ std::optional<double> time_of_largest_force(const std::optional<CsvTable>& conta
 /// The largest magnitude of something over the run.
 struct LargestValue {
   std::string quantity, value, time, where;
-  std::string place{};  ///< probe, contact or part alone
+  std::string place{};                                       ///< probe, contact or part alone
   double number = std::numeric_limits<double>::quiet_NaN();  ///< in `unit`
   std::string unit{};
 };

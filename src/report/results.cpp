@@ -76,8 +76,14 @@ ReportData read_results(const std::string& results_folder) {
   if (!tables.energy) data.notes.emplace_back("energy.csv is missing.");
   data.case_text = read_case(folder, data.notes);
   data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
+  show_tables(data, tables);
+  return data;
+}
+
+void show_tables(ReportData& data, const Tables& tables) {
   data.figures = key_figures(tables, data.summary, data.units);
-  data.largest_force_at = time_of_largest_force(tables.contact, data.summary ? data.summary->ties : std::vector<std::string>{});
+  data.largest_force_at =
+      time_of_largest_force(tables.contact, data.summary ? data.summary->ties : std::vector<std::string>{});
   data.largest = largest_values(tables, data.summary, data.units);
   data.parts = largest_of_parts(tables.parts, data.units);
   data.spectra = spectrum_plots(tables.spectra, data.summary, data.units);
@@ -87,7 +93,6 @@ ReportData read_results(const std::string& results_folder) {
     data.title = line.substr(0, line.rfind(" - "));
   }
   if (tables.energy && tables.energy->rows() > 0) data.time_reached = tables.energy->values.front().back();
-  return data;
 }
 
 std::size_t bytes_of_views(std::size_t rest) {

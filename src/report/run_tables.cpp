@@ -150,7 +150,8 @@ DataTable largest_of_runs(const std::vector<NamedRun>& runs) {
   const char* const title = "Largest values";
   if (runs.size() == 1) {
     DataTable table{title, {{"Quantity"}, {"value", true}, {"time", true}, {"where"}}, {}};
-    for (const LargestValue& l : runs.front().data.largest) table.rows.push_back({l.quantity, l.value, l.time, l.where});
+    for (const LargestValue& l : runs.front().data.largest)
+      table.rows.push_back({l.quantity, l.value, l.time, l.where});
     return table;
   }
   Rows rows(runs);
@@ -207,6 +208,15 @@ DataTable energies_of_runs(const std::vector<NamedRun>& runs) {
     }
   }
   return rows.table("Energy at the end", unit.empty() ? "energy" : fmt::format("energy [{}]", unit));
+}
+
+std::string tables_text(const std::vector<NamedRun>& runs, const std::string& format) {
+  std::string text;
+  for (const DataTable& table :
+       {runs.size() > 1 ? input_differences(runs) : DataTable{}, figures_of_runs(runs), checks_of_runs(runs),
+        largest_of_runs(runs), parts_of_runs(runs), energies_of_runs(runs)})
+    if (!table.rows.empty()) text += (text.empty() ? "" : "\n") + format_table(table, format);
+  return text;
 }
 
 }  // namespace carom

@@ -30,4 +30,8 @@ DataTable energies_of_runs(const std::vector<NamedRun>& runs);
 DataTable largest_of_runs(const std::vector<NamedRun>& runs);
 DataTable parts_of_runs(const std::vector<NamedRun>& runs);
 
+/// All of these that have rows, as text in one of the formats of output/data_table.hpp, with empty lines between.
+/// Throws as input_differences does.
+std::string tables_text(const std::vector<NamedRun>& runs, const std::string& format);
+
 }  // namespace carom
