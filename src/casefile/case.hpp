@@ -97,7 +97,7 @@ struct CaseLoad {
   Location where;
   enum class Kind : std::uint8_t { force, total_force, pressure, gravity };
   Kind kind{};
-  std::optional<Located<std::string>> group;  ///< nodes (force), faces (pressure), either of both (total force)
+  std::optional<Located<std::string>> group;  ///< nodes (force), faces (pressure), or either (total force)
   Vec3 vector{};                              ///< force on each node or in all, or acceleration of gravity
   double pressure = 0.0;
   std::optional<Located<std::string>> function;  ///< key of [functions]; constant 1 when absent

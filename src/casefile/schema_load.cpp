@@ -68,7 +68,7 @@ SectionSchema<CaseLoad> load_section() {
       s,
       {"gravity", Shape::vector, "Acceleration of gravity, on all parts.", {.unit = Dimension::acceleration}, {}, {}},
       CaseLoad::Kind::gravity, vector);
-  s.key("group", &CaseLoad::group, "Group of nodes (force), of faces (pressure), of either (total_force).");
+  s.key("group", &CaseLoad::group, "Group of nodes (force), of faces (pressure), or of either (total_force).");
   s.key("function", &CaseLoad::function, "NAME of a [functions.NAME] that multiplies the load.",
         {.default_phrase = "constant 1"});
   s.description.alternatives = {{Alternatives::Count::exactly_one, {"force", "total_force", "pressure", "gravity"}}};

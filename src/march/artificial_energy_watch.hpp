@@ -11,9 +11,8 @@ namespace carom {
 
 /// Watches the hourglass modes of `one_point` cells and artificial viscosity. A part answers too softly, or folds along
 /// its cells, where what its hourglass modes have stored and lost is more than a tenth of its internal energy (strain
-/// and plastic), the largest of the run each: the customary bound (T. Belytschko, W. K. Liu, B. Moran, Nonlinear Finite
-/// Elements for Continua and Structures, 2000, section 8.7, and manuals of explicit programs). `hourglass` of
-/// stabilised cells is the bending that they stand for, and is not judged.
+/// and plastic), the largest of the run each: the bound that is customary among users of explicit programs. `hourglass`
+/// of stabilised cells is the bending that they stand for, and is not judged.
 class ArtificialEnergyWatch : public Observer {
  public:
   explicit ArtificialEnergyWatch(const Simulation& simulation);

@@ -42,6 +42,7 @@ std::vector<std::array<std::string, 3>> figures(const std::string& text, const R
   tables.energy = table_of_rows(energy);
   tables.contact = table_of_rows(contact);
   tables.probes = table_of_rows(probes);
+  tables.ties = summary.ties;
   std::vector<std::array<std::string, 3>> out;
   for (const KeyFigure& f : key_figures(tables, summary, units_of(summary.case_info.units)))
     out.push_back({f.title, f.value, f.remark});
@@ -60,6 +61,7 @@ std::string tables(const std::string& folder, const std::string& text, const std
   read.contact = table_of_rows(of_run[1]);
   read.probes = table_of_rows(of_run[2]);
   read.parts = table_of_rows(of_run[3]);
+  read.ties = data.summary->ties;
   show_tables(data, read);
   return tables_text({{"value", std::move(data)}}, format);
 }

@@ -97,10 +97,6 @@ Vec3 vector_at(const CsvTable& table, const std::string& place, std::string_view
 
 using Names = std::vector<std::string>;
 
-Names ties_of(const std::optional<Summary>& summary) {
-  return summary ? summary->ties : Names{};
-}
-
 struct Peak {
   double value = 0.0, time = 0.0;
 };
@@ -174,6 +170,12 @@ double crossing_of(const std::optional<Summary>& summary, const std::string& pla
 
 constexpr std::string_view of_enforcement = "goes with the contact's stiffness or the step, and a cell's ringing";
 
+/// Has nothing kinetic energy? Then time is that of loads alone, and no step makes peaks.
+bool is_static(const Tables& tables) {
+  const auto* kinetic = tables.energy ? tables.energy->column("kinetic") : nullptr;
+  return kinetic != nullptr && !kinetic->empty() && *std::ranges::max_element(*kinetic) == 0.0;
+}
+
 /// A force that is no more than its mean over a wave's way through a cell is physical; of any other it is said what
 /// it goes with.
 std::string remark_on_peak(const CsvTable& contact, const std::string& place, const Peak& peak, double crossing,
@@ -192,7 +194,7 @@ void add_peak_forces(const Tables& tables, const std::optional<Summary>& summary
   const CsvTable& contact = *tables.contact;
   const auto text = [&](double force) { return with_readable_unit(force, units.force, 4); };
   std::vector<Weighed> all;
-  for (const std::string& place : contacts_with(contact, "force", ties_of(summary))) {
+  for (const std::string& place : contacts_with(contact, "force", tables.ties)) {
     const Peak peak = peak_of(contact, place, "force");
     const std::string column = place + ".force_x";
     if (tables.contact_filtered && tables.contact_filtered->column(column) != nullptr) {
@@ -206,10 +208,10 @@ void add_peak_forces(const Tables& tables, const std::optional<Summary>& summary
            place});
       continue;
     }
-    all.push_back({{"Peak force, " + place, text(peak.value),
-                    remark_on_peak(contact, place, peak, crossing_of(summary, place), units), peak.value, units.force},
-                   peak.value,
-                   place});
+    std::string remark = is_static(tables) ? "at " + time_text(peak.time, units)
+                                           : remark_on_peak(contact, place, peak, crossing_of(summary, place), units);
+    all.push_back(
+        {{"Peak force, " + place, text(peak.value), std::move(remark), peak.value, units.force}, peak.value, place});
   }
   if (!all.empty() && std::all_of(all.begin(), all.end(), [](const Weighed& w) { return w.weight == 0.0; })) {
     figures.push_back({"Contact force", "none", "nothing was touched"});
@@ -555,14 +557,13 @@ std::optional<double> time_of_largest_force(const std::optional<CsvTable>& conta
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units) {
   std::vector<KeyFigure> figures;
   const bool has_contact = tables.contact && tables.contact->rows() > 0;
-  const Names ties = ties_of(summary);
-  if (has_contact) add_impulses(*tables.contact, ties, units, figures);
-  if (has_contact) add_durations(*tables.contact, ties, units, figures);
+  if (has_contact && !is_static(tables)) add_impulses(*tables.contact, tables.ties, units, figures);
+  if (has_contact) add_durations(*tables.contact, tables.ties, units, figures);
   add_speeds(tables, summary, units, figures);
   if (has_contact) add_peak_forces(tables, summary, units, figures);
   add_peak_accelerations(tables, units, figures);
   if (summary) add_shock(*summary, units, figures);
-  if (has_contact) add_ties(*tables.contact, ties, units, figures);
+  if (has_contact) add_ties(*tables.contact, tables.ties, units, figures);
   if (summary) add_stress(*summary, units, figures);
   return figures;
 }

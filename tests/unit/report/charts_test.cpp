@@ -328,6 +328,16 @@ TEST(KeyFigures, PeaksStandBesideTheMeanOverAWavesWayThroughACell) {
   EXPECT_EQ(remark_on_floor({10, 10, 10, 10}, {0, 10, 20, 30}, 2.0), "10 N at 0 s") << "what lasts is no ringing";
 }
 
+// In statics time is that of the loads.
+TEST(KeyFigures, StaticsHasNoImpulsesAndNoStepsThatRing) {
+  Tables tables;
+  tables.energy = table_of({{"time", {0, 1}}, {"kinetic", {0, 0}}});
+  tables.contact = table_of({{"time", {0, 1}}, {"floor.force_z", {0, 8}}, {"floor.impulse_z", {0, 4}}});
+  const std::vector<KeyFigure> figures = key_figures(tables, std::nullopt, units_of("SI"));
+  ASSERT_EQ(figures.size(), 1U);
+  EXPECT_EQ(figures[0].title + ": " + figures[0].remark, "Peak force, floor: at 1 s");
+}
+
 TEST(KeyFigures, LeadWithWhatTheStiffnessOfContactLeavesAlone) {
   Tables tables;
   tables.contact = table_of({{"time", {0, 1, 2}},
@@ -353,10 +363,8 @@ TEST(KeyFigures, ATieIsNoImpact) {
                                      {"floor.force_x", {0, 8, 0}},
                                      {"floor.impulse_x", {0, 4, 8}},
                                      {"floor.closed", {0, 1, 0}}});
-  Summary summary;
-  summary.ties = {"glue"};
   std::vector<std::string> of_glue;
-  for (const KeyFigure& f : key_figures({.contact = contact}, summary, units_of("SI")))
+  for (const KeyFigure& f : key_figures({.contact = contact, .ties = {"glue"}}, std::nullopt, units_of("SI")))
     if (f.title.ends_with("glue")) of_glue.push_back(f.title + ": " + f.value + " " + f.remark);
   EXPECT_EQ(of_glue, std::vector<std::string>{"Largest force carried by tie glue: 9 N at 2 s"});
   EXPECT_EQ(time_of_largest_force(contact, {"glue"}), std::optional(1.0));

@@ -43,6 +43,10 @@ material = "soft"
 [[load]]
 total_force = {}
 group = "{}"
+function = "ramp"
+[functions.ramp]
+time = [0.0, 1.0]
+value = [0.0, 1.0]
 [scheme]
 kind = "statics"
 [time]
@@ -55,7 +59,8 @@ step = 1.0
 std::string symmetry(const std::string& axes) {
   std::string text;
   for (const char axis : axes)
-    text += fmt::format("[[support]]\nnodes = \"{}MIN\"\nsymmetry = \"{}\"\n", static_cast<char>(std::toupper(axis)), axis);
+    text +=
+        fmt::format("[[support]]\nnodes = \"{}MIN\"\nsymmetry = \"{}\"\n", static_cast<char>(std::toupper(axis)), axis);
   return text;
 }
 
@@ -78,7 +83,8 @@ TEST(TotalForce, PullsABarWithAUniformStress) {
   const std::string along_x = fmt::format("[{}, 0.0, 0.0]", force);
   EXPECT_NEAR(stress_of(pulled(block, "", along_x, symmetry("xyz"))), force / 0.5, 1e-9 * force);
   EXPECT_NEAR(stress_of(pulled(block, "formulation = \"full\"", along_x, symmetry("xyz"))), force / 0.5, 1e-9 * force);
-  for (const CellType type : {CellType::hexa20, CellType::hexa27, CellType::tetra4, CellType::tetra10, CellType::penta15}) {
+  for (const CellType type :
+       {CellType::hexa20, CellType::hexa27, CellType::tetra4, CellType::tetra10, CellType::penta15}) {
     StructuredBlock of_bar;
     of_bar.size = {2.0, 1.0, 0.5};
     of_bar.divisions = {2, 2, 1};
@@ -100,8 +106,8 @@ size = [1.0, 2.0]
 divisions = [3, 4]
 groups = { cells = "BAR", ymax = "END", ymin = "YMIN" }
 )";
-  const double stress = stress_of(
-      pulled(mesh, "section = \"axisymmetric\"", fmt::format("[0.0, {}, 0.0]", force), symmetry("y")));
+  const double stress =
+      stress_of(pulled(mesh, "section = \"axisymmetric\"", fmt::format("[0.0, {}, 0.0]", force), symmetry("y")));
   EXPECT_NEAR(stress, force / std::numbers::pi, 1e-9 * force);
 }
 
@@ -142,11 +148,11 @@ groups = { cells = "BAR", start = "XMIN" }
 }
 
 TEST(TotalForce, IsSaidByCheck) {
-  const Simulation simulation(
-      parse_case(pulled(block, "", "[3.0, 0.0, -1.5]", symmetry("xyz")), "case.toml"));
+  const Simulation simulation(parse_case(pulled(block, "", "[3.0, 0.0, -1.5]", symmetry("xyz")), "case.toml"));
   const std::string text = examine(simulation, "", 0.0).text();
-  EXPECT_NE(text.find("\n  load      on \"END\": (3, 0, -1.5) N in all\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("note: load on \"END\": 12 nodes share the total force by their areas\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n  load      on \"END\": (3, 0, -1.5) N in all, times \"ramp\"\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("note: load on \"END\": 12 nodes share the total force by their areas\n"), std::string::npos)
+      << text;
 }
 
 }  // namespace
