@@ -21,6 +21,7 @@
 #include "math/vec3.hpp"
 #include "record/frame_plan.hpp"
 #include "record/recorder.hpp"
+#include "solid/loads.hpp"
 #include "solid/part_inertia.hpp"
 #include "solid/smallest_cell.hpp"
 #include "solid/stability.hpp"
@@ -122,7 +123,9 @@ std::string count_of(long long n, const char* what) {
   return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s");
 }
 
-std::string describe(const Approach& a, const UnitSystem units) {
+std::string describe(const CaseContact& contact, const Approach& a, const UnitSystem units) {
+  if (const auto* tie = std::get_if<CaseTie>(&contact.of))
+    return tie->tears() ? "holds its sides together until it tears" : "holds its sides together";
   if (!std::isfinite(a.gap)) return "the surfaces are more than a facet apart";
   if (a.gap > 0.0 && std::abs(a.speed) <= a.speed_rounding)
     return fmt::format("gap {:.6g} {}, its sides move together", a.gap, unit_name(Dimension::length, units));
@@ -168,6 +171,23 @@ std::string describe_driven(const Stage& stage, const Simulation& s) {
       count_of(driven.count, "cell"), block.file_numbers[static_cast<std::size_t>(cell.cell)],
       step_text(stable_step_of(stability_limit(stage.settings()), driven.omega_max_squared)),
       100.0 * most_imposed_strain, step_text(driven.dt_strain));
+}
+
+/// Forces and pressures: what all nodes together have, times the function of the load.
+std::string describe_loads(const Simulation& s) {
+  std::string text;
+  const std::vector<LoadVector> vectors = make_loads(s.model());
+  auto vector = vectors.begin();
+  for (const CaseLoad& load : s.given().loads) {
+    if (load.kind == CaseLoad::Kind::gravity) continue;
+    Vec3 sum{};
+    for (const Vec3& force : vector->force) sum = add(sum, force);
+    text += fmt::format("  load      on \"{}\": {} {} in all{}\n", **load.group, format_vector(sum, norm(sum)),
+                        unit_name(Dimension::force, s.given().units),
+                        load.function ? fmt::format(", times \"{}\"", **load.function) : "");
+    ++vector;
+  }
+  return text;
 }
 
 std::string describe(const Erosion& erosion, std::string_view time) {
@@ -225,12 +245,14 @@ std::string check_summary(const Simulation& s, const Rehearsal& seen) {
         fmt::format("  masses    {} with {:.6g} {} each\n",
                     count_of(static_cast<long long>(point.nodes.size()), "node"), point.mass, unit(Dimension::mass));
   }
+  text += describe_loads(s);
   for (const Erosion& erosion : s.model().erosion) text += describe(erosion, unit(Dimension::time));
   if (!s.model().springs.empty()) text += fmt::format("  springs   {}\n", s.model().springs.size());
   if (!s.model().equations.empty()) text += fmt::format("  equations {}\n", s.model().equations.size());
   const std::vector<Approach> contacts = approaches(s, state);
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name, describe(contacts[i], units));
+    text += fmt::format("  contact   \"{}\": {}\n", *s.given().contacts[i].name,
+                        describe(s.given().contacts[i], contacts[i], units));
   const CostEstimate cost = estimate_cost(s, seen);
   for (std::size_t i = 0; i < s.stages().size(); ++i) text += describe(*s.stages()[i], cost.stages[i].steps, s);
   const StableStep stable = s.stable();

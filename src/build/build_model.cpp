@@ -25,6 +25,7 @@
 #include "contact/tie_rows.hpp"
 #include "math/vec3.hpp"
 #include "model/node_lengths.hpp"
+#include "solid/loads.hpp"
 
 namespace carom {
 
@@ -109,6 +110,9 @@ class ModelBuilder {
         model_.loads.emplace_back(NodalForce{nodes, given.vector, function(given.function, 1.0)});
         break;
       }
+      case CaseLoad::Kind::total_force:
+        add_total_force(given);
+        break;
       case CaseLoad::Kind::pressure: {
         const Surface loaded = surface(*given.group, "load.group");
         for (const Facet& facet : loaded.facets)
@@ -120,6 +124,18 @@ class ModelBuilder {
         model_.loads.emplace_back(Gravity{given.vector, function(given.function, 1.0)});
         break;
     }
+  }
+
+  void add_total_force(const CaseLoad& given) {
+    const std::vector<Index> nodes = groups_.nodes(*given.group, "load.group");
+    for (const Index n : nodes) refuse_outside_parts(n, *given.group);
+    const std::vector<OuterFacet> faces = groups_.faces_alone(*given.group, "load.group");
+    std::vector<double> shares =
+        faces.empty() ? mass_shares(model_, nodes)
+                      : area_shares(mesh_, parts_.surface(faces, given.group->where, "load.group"), nodes);
+    model_.notes.push_back(fmt::format("load on \"{}\": {} nodes share the total force by their {}", **given.group,
+                                       nodes.size(), faces.empty() ? "masses" : "areas"));
+    model_.loads.emplace_back(NodalForce{nodes, given.vector, function(given.function, 1.0), std::move(shares)});
   }
 
   Surface surface(const Located<std::string>& group, const std::string& key) const {

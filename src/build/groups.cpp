@@ -167,7 +167,7 @@ const Groups::Skin& Groups::skin() const {
   return *skin_;
 }
 
-std::vector<OuterFacet> Groups::outer_facets(const Located<std::string>& name, const std::string& key) const {
+std::vector<OuterFacet> Groups::find_facets(const Located<std::string>& name, const std::string& key) const {
   std::vector<char> is_member(mesh_.node_count(), 0);
   for (const Index n : nodes(name, key)) is_member[static_cast<std::size_t>(n)] = 1;
   std::array<std::vector<std::array<Index, 4>>, 3> chosen;  // by dimension
@@ -193,11 +193,32 @@ std::vector<OuterFacet> Groups::outer_facets(const Located<std::string>& name, c
                                                                   sorted_corners(face.type, face.nodes));
     if (is_in) result.push_back(outer);
   }
+  return result;
+}
+
+std::vector<OuterFacet> Groups::outer_facets(const Located<std::string>& name, const std::string& key) const {
+  std::vector<OuterFacet> result = find_facets(name, key);
   if (result.empty()) {
     refuse(name, key, fmt::format("\"{}\", which holds no outer face of the solids", *name),
            "a group of faces on the surface, or of all nodes of such faces");
   }
   return result;
+}
+
+std::vector<OuterFacet> Groups::faces_alone(const Located<std::string>& name, const std::string& key) const {
+  if (means_all(*name)) return {};
+  if (const auto group = mesh_.cell_groups.find(*name); group != mesh_.cell_groups.end())
+    for (const CellRef& ref : group->second) {
+      const CellType type = mesh_.blocks[static_cast<std::size_t>(ref.block)].type;
+      if (dimension(type) == 3 || !on_boundary(nodes_of_cell(mesh_, ref), type, skin().node_dimensions)) return {};
+    }
+  std::vector<OuterFacet> facets = find_facets(name, key);
+  std::vector<char> is_on_face(mesh_.node_count(), 0);
+  for (const OuterFacet& outer : facets)
+    for (const Index n : WholeFace(mesh_, outer).nodes) is_on_face[static_cast<std::size_t>(n)] = 1;
+  const std::vector<Index> all = nodes(name, key);
+  const bool is_alone = std::ranges::all_of(all, [&](Index n) { return is_on_face[static_cast<std::size_t>(n)] != 0; });
+  return is_alone ? facets : std::vector<OuterFacet>{};
 }
 
 std::vector<OuterFacet> Groups::exterior(const std::vector<Located<std::string>>& excluded,

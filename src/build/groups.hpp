@@ -38,6 +38,9 @@ class Groups {
   /// that are boundary cells of it (faces, lines), or whose nodes are all in it where it has no boundary cells of their
   /// dimension.
   std::vector<OuterFacet> outer_facets(const Located<std::string>& name, const std::string& key) const;
+  /// Those of a group that is nothing but faces: none of its cells is a body, and each of its nodes is on one of them.
+  /// Empty for other groups.
+  std::vector<OuterFacet> faces_alone(const Located<std::string>& name, const std::string& key) const;
   /// The whole skin.
   std::shared_ptr<const std::vector<OuterFacet>> outer_facets() const { return skin().facets; }
   /// All of the skin but what lies in the excluded groups.
@@ -48,6 +51,7 @@ class Groups {
 
  private:
   CellsByType all_cells(int dimension) const;
+  std::vector<OuterFacet> find_facets(const Located<std::string>& name, const std::string& key) const;
   CellsByType group_cells(const Located<std::string>& name, const std::string& key, int dimension,
                           const std::string& expected) const;
   std::string counted(const CellsByType& cells) const;

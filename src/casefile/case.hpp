@@ -95,10 +95,10 @@ struct CaseSupport {
 /// [[load]]
 struct CaseLoad {
   Location where;
-  enum class Kind : std::uint8_t { force, pressure, gravity };
+  enum class Kind : std::uint8_t { force, total_force, pressure, gravity };
   Kind kind{};
-  std::optional<Located<std::string>> group;  ///< nodes (force) or faces (pressure)
-  Vec3 vector{};                              ///< force on each node, or acceleration of gravity
+  std::optional<Located<std::string>> group;  ///< nodes (force), faces (pressure), or either (total force)
+  Vec3 vector{};                              ///< force on each node or in all, or acceleration of gravity
   double pressure = 0.0;
   std::optional<Located<std::string>> function;  ///< key of [functions]; constant 1 when absent
 };

@@ -26,9 +26,10 @@ void check_group(CaseLoad& load, const Node& node, const ReadContext& at) {
   if (gravity) {
     throw CaseError(load.group->where, path, toml_string(**load.group), "no group", "Gravity acts on all parts.");
   }
-  const bool force = load.kind == CaseLoad::Kind::force;
-  throw CaseError(node.where, path, "nothing",
-                  force ? "the group of nodes that the force acts on" : "the group of faces that the pressure acts on");
+  const bool pressure = load.kind == CaseLoad::Kind::pressure;
+  throw CaseError(
+      node.where, path, "nothing",
+      pressure ? "the group of faces that the pressure acts on" : "the group of nodes that the force acts on");
 }
 
 }  // namespace
@@ -40,9 +41,21 @@ SectionSchema<CaseLoad> load_section() {
   const auto pressure = [](auto& load) -> auto& {
     return load.pressure;
   };
-  SectionSchema<CaseLoad> s("A load: a force on each node of a group, a pressure on faces, or gravity.");
+  SectionSchema<CaseLoad> s(
+      "A load: a force on each node of a group or on all of it together, a pressure on faces, or gravity.");
   add_kind(s, {"force", Shape::vector, "Force on each node of the group.", {.unit = Dimension::force}, {}, {}},
            CaseLoad::Kind::force, vector);
+  add_kind(
+      s,
+      {"total_force",
+       Shape::vector,
+       "Force on the group in all, which its nodes share: by their areas where it is a group of faces or of all nodes "
+       "of faces (a uniform traction), else by the masses of the cells at them (of bars of one section: by lengths). "
+       "Axisymmetric: over the whole circumference; x is what pushes outward, summed. `check` prints the sum.",
+       {.unit = Dimension::force},
+       {},
+       {}},
+      CaseLoad::Kind::total_force, vector);
   add_kind(s,
            {"pressure",
             Shape::number,
@@ -55,10 +68,10 @@ SectionSchema<CaseLoad> load_section() {
       s,
       {"gravity", Shape::vector, "Acceleration of gravity, on all parts.", {.unit = Dimension::acceleration}, {}, {}},
       CaseLoad::Kind::gravity, vector);
-  s.key("group", &CaseLoad::group, "Group of nodes (force) or faces (pressure).");
+  s.key("group", &CaseLoad::group, "Group of nodes (force), of faces (pressure), or of either (total_force).");
   s.key("function", &CaseLoad::function, "NAME of a [functions.NAME] that multiplies the load.",
         {.default_phrase = "constant 1"});
-  s.description.alternatives = {{Alternatives::Count::exactly_one, {"force", "pressure", "gravity"}}};
+  s.description.alternatives = {{Alternatives::Count::exactly_one, {"force", "total_force", "pressure", "gravity"}}};
   s.finish = check_group;
   return s;
 }

@@ -1,6 +1,7 @@
 // What watches every run, whether it leaves results or not.
 #pragma once
 
+#include "march/artificial_energy_watch.hpp"
 #include "march/fold_watch.hpp"
 #include "march/march.hpp"
 #include "march/overlap_watch.hpp"
@@ -12,7 +13,11 @@ namespace carom {
 /// Some of them stop the run. The simulation outlives them.
 struct Watches {
   Watches(const Simulation& simulation, const March& march)
-      : penetration(simulation.model()), overlap(simulation, march.state()), rotation(simulation), folds(simulation) {}
+      : penetration(simulation.model()),
+        overlap(simulation, march.state()),
+        rotation(simulation),
+        folds(simulation),
+        artificial(simulation) {}
 
   /// They outlive the march.
   void look_at(March& march) {
@@ -20,6 +25,7 @@ struct Watches {
     march.add(overlap);
     march.add(rotation);
     march.add(folds);
+    march.add(artificial);
   }
 
   template <class A>
@@ -28,12 +34,14 @@ struct Watches {
     archive("overlap", x.overlap);
     archive("rotation", x.rotation);
     archive("folds", x.folds);
+    archive("artificial", x.artificial);
   }
 
   PenetrationWatch penetration;
   OverlapWatch overlap;
   RotationWatch rotation;
   FoldWatch folds;
+  ArtificialEnergyWatch artificial;
 };
 
 }  // namespace carom

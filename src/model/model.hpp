@@ -73,11 +73,12 @@ struct PrescribedMotion {
   std::optional<ImposedRotation> rotation{};  ///< of MotionKind::rotation
 };
 
-/// The same force vector on each node of the list, times factor(t).
+/// The same force vector on each node of the list, or a share of it, times factor(t).
 struct NodalForce {
   std::vector<Index> nodes;
   Vec3 force{};
   TimeFunction factor;
+  std::vector<double> shares{};  ///< by node, 1 in all; empty: each node has the whole vector
 };
 
 /// Pressure (positive: pushes against the surface), dead load on the reference configuration.

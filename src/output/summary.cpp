@@ -263,6 +263,8 @@ Json to_json(const Summary& s) {
   json["angular_momentum"] = to_json(s.angular_momentum);
   json["parts"] = list(s.parts);
   json["contacts"] = s.contacts;
+  json["ties"] = s.ties;
+  json["crossing_times"] = named_values(s.crossings);
   json["stress"] = to_json(s.stress);
   json["probes"] = list(s.probes);
   json["shock"] = list(s.shock);
@@ -293,6 +295,8 @@ Summary summary_from(const Json& json) {
   s.angular_momentum = momentum_from(json.at("angular_momentum"));
   s.parts = list_from(json.at("parts"), part_from);
   s.contacts = json.at("contacts").get<std::vector<std::string>>();
+  if (json.contains("ties")) s.ties = json.at("ties").get<std::vector<std::string>>();
+  if (json.contains("crossing_times")) s.crossings = named_values(json.at("crossing_times"));
   s.stress = stress_from(json.at("stress"));
   s.probes = list_from(json.at("probes"), probe_from);
   if (json.contains("shock")) s.shock = list_from(json.at("shock"), shock_from);

@@ -92,10 +92,15 @@ std::string unit_of(const Units& units, Dimension dimension) {
   return unit;
 }
 
-std::string in_g(double acceleration, const Units& units) {
+std::optional<double> multiple_of_g(double acceleration, const Units& units) {
   const std::optional<UnitSystem> system = system_of(units);
-  return system ? number_text(acceleration * si_factor(Dimension::acceleration, *system) / standard_gravity, 4) + " g"
-                : "";
+  if (!system) return std::nullopt;
+  return acceleration * si_factor(Dimension::acceleration, *system) / standard_gravity;
+}
+
+std::string in_g(double acceleration, const Units& units) {
+  const std::optional<double> multiple = multiple_of_g(acceleration, units);
+  return multiple ? number_text(*multiple, 4) + " g" : "";
 }
 
 std::string unit_of_column(const Units& units, std::string_view column) {

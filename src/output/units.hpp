@@ -40,6 +40,8 @@ std::string unit_of(const Units& units, Dimension dimension);
 /// An acceleration as a multiple of standard_gravity, e.g. "3134 g"; "" where the system
 /// is unknown.
 std::string in_g(double acceleration, const Units& units);
+/// Its number alone.
+std::optional<double> multiple_of_g(double acceleration, const Units& units);
 
 /// Unit of a column of energy.csv, contact.csv or probes.csv by its name, e.g. "m/s" for "B.velocity_z" in SI; "" for
 /// numbers without a unit.

@@ -11,6 +11,7 @@
 #include "casefile/write_toml.hpp"
 #include "compare/compare_cases.hpp"
 #include "driver/material_page.hpp"
+#include "output/data_table.hpp"
 #include "output/units.hpp"
 #include "python/compute.hpp"
 #include "python/prepared_case.hpp"
@@ -82,10 +83,11 @@ Value awaited(std::future<Value> made, std::atomic<bool>& stop) {
   return made.get();
 }
 
-/// The text of compare.json.
-std::string compare(const py::dict& tree, const std::shared_ptr<Source>& source, const std::string& file,
-                    const compare::Options& options, const std::vector<std::string>& program, const std::string& folder,
-                    int jobs, const py::object& finished) {
+/// The text of compare.json, and the table in each of its formats.
+std::pair<std::string, std::map<std::string, std::string>> compare(
+    const py::dict& tree, const std::shared_ptr<Source>& source, const std::string& file,
+    const compare::Options& options, const std::vector<std::string>& program, const std::string& folder, int jobs,
+    const py::object& finished) {
   const Node root = from_python(tree, source ? &source->root : nullptr, file, "");
   compare::Settings settings{program, folder, jobs};
   if (!finished.is_none())
@@ -108,8 +110,12 @@ std::string compare(const py::dict& tree, const std::shared_ptr<Source>& source,
                                   base = compare::base_of(root, file);
                                   variants = compare::variants_in(folder, *base, options);
                                 }
-                                return json_table(compare::compare_variants(*base, write_toml(root), variants, options,
-                                                                            settings, stop));
+                                const compare::Comparison found = compare::compare_variants(
+                                    *base, write_toml(root), variants, options, settings, stop);
+                                std::map<std::string, std::string> tables;
+                                for (const std::string& format : table_formats())
+                                  tables[format] = format_table(variants_table(found), format);
+                                return std::pair(json_table(found), std::move(tables));
                               }),
                    stop);
   } catch (const CaseError& error) {

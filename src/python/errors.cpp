@@ -4,6 +4,7 @@
 #include "math/called_function.hpp"
 #include "output/checkpoint_file.hpp"
 #include "python/bindings.hpp"
+#include "python/python_run.hpp"
 
 namespace carom::python {
 
@@ -28,6 +29,8 @@ void translate(std::exception_ptr thrown) {
           named("expected", e.expected()), named("suggestion", e.suggestion()));
   } catch (const RunError& e) {
     raise("RunError", e.what(), named("step", e.step()), named("time", e.time()));
+  } catch (const FailedRun& e) {
+    raise("RunError", e.what(), named("step", e.step), named("time", e.time));
   } catch (const OutputError& e) {
     raise("OutputError", e.what(), named("path", e.path()));
   } catch (const CheckpointError& e) {

@@ -13,6 +13,8 @@
 #include "python/compute.hpp"
 #include "report/figures.hpp"
 #include "report/report.hpp"
+#include "report/results.hpp"
+#include "report/run_tables.hpp"
 
 namespace carom::python {
 
@@ -40,10 +42,28 @@ std::vector<std::array<std::string, 3>> figures(const std::string& text, const R
   tables.energy = table_of_rows(energy);
   tables.contact = table_of_rows(contact);
   tables.probes = table_of_rows(probes);
+  tables.ties = summary.ties;
   std::vector<std::array<std::string, 3>> out;
   for (const KeyFigure& f : key_figures(tables, summary, units_of(summary.case_info.units)))
     out.push_back({f.title, f.value, f.remark});
   return out;
+}
+
+/// The tables of `carom report --format`: of a folder, where there is one, else of what is in memory.
+std::string tables(const std::string& folder, const std::string& text, const std::array<Rows, 4>& of_run,
+                   const std::string& format) {
+  if (!folder.empty()) return tables_of_runs({folder}, format);
+  ReportData data;
+  data.summary = parse_summary(text);
+  data.units = units_of(data.summary->case_info.units);
+  Tables read;
+  read.energy = table_of_rows(of_run[0]);
+  read.contact = table_of_rows(of_run[1]);
+  read.probes = table_of_rows(of_run[2]);
+  read.parts = table_of_rows(of_run[3]);
+  read.ties = data.summary->ties;
+  show_tables(data, read);
+  return tables_text({{"value", std::move(data)}}, format);
 }
 
 std::string page_with_view(const std::string& folder, std::size_t most_bytes) {
@@ -57,6 +77,8 @@ std::string page_with_view(const std::string& folder, std::size_t most_bytes) {
 void bind_pages(py::module_& module) {
   module.def("key_figures", &figures, py::arg("summary"), py::arg("energy"), py::arg("contact"), py::arg("probes"),
              "Title, value and remark of the key figures of a report.");
+  module.def("tables", &tables, py::arg("folder"), py::arg("summary"), py::arg("of_run"), py::arg("format"),
+             "The tables of a run as text; of_run: energy, contact, probes and parts.");
   module.def("view_page", &page_with_view, py::arg("folder"), py::arg("most_bytes"),
              "A page with the view of a results folder alone.");
 }

@@ -82,7 +82,7 @@ void PythonRun::begin() {
     if (run_->outcome() == Outcome::good) return;
     const std::string message = run_->message();
     close("");
-    throw RunError(0, 0.0, message);
+    throw FailedRun(0, 0.0, message);
   } catch (...) {
     --live_runs;
     throw;
@@ -149,7 +149,7 @@ void PythonRun::advance_quietly(double time, long long& count) {
 
 void PythonRun::throw_failure() const {
   if (run_->outcome() == Outcome::good) return;
-  throw RunError(static_cast<int>(steps()), time(), run_->message());
+  throw FailedRun(static_cast<int>(steps()), time(), run_->message());
 }
 
 void PythonRun::advance(double time, long long count) {

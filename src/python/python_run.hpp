@@ -8,6 +8,7 @@
 #include <atomic>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,15 @@
 #include "run/run.hpp"
 
 namespace carom::python {
+
+/// A run that has failed, in its own words, which say where it was.
+struct FailedRun : std::runtime_error {
+  FailedRun(int at_step, double at_time, const std::string& message)
+      : std::runtime_error(message), step(at_step), time(at_time) {}
+
+  int step;
+  double time;
+};
 
 /// Steps a Run with the lock of the interpreter let go of. Its files, locks and threads go with it.
 class PythonRun {

@@ -1,7 +1,4 @@
 // Runs: the class that carom.Run derives from.
-#include <cmath>
-#include <limits>
-
 #include "python/python_run.hpp"
 
 namespace carom::python {
@@ -22,25 +19,6 @@ void bind_runs(py::module_& module) {
            py::arg("threads"))
       .def(py::init<const std::string&, std::optional<double>, int>(), py::arg("folder"), py::arg("end"),
            py::arg("threads"))
-      .def(
-          "step",
-          [](PythonRun& run, long long n) {
-            if (n < 0) throw py::value_error("n: a number of steps");
-            run.advance(std::numeric_limits<double>::infinity(), n);
-          },
-          py::arg("n") = 1,
-          "Makes n steps, fewer where the run comes to its end.\n\n"
-          "Raises RunError where the run cannot go on, OutputError where results cannot be written, and what a\n"
-          "function of time or an observer raises. Ctrl-C is answered at the end of the step; the run can go on.")
-      .def(
-          "until",
-          [](PythonRun& run, double time) {
-            if (std::isnan(time)) throw py::value_error("time: a number");
-            run.advance(time, -1);
-          },
-          py::arg("time"),
-          "Steps to the first end of a step at or after `time` (in the case's unit), or to the end of the run.\n\n"
-          "Steps are not shortened for it. Raises as step does.")
       .def("_advance", &PythonRun::advance, py::arg("time"), py::arg("count"))
       .def("_observe", &PythonRun::observe, py::arg("every"))
       .def("_forget", &PythonRun::forget, py::arg("every"))
@@ -58,10 +36,7 @@ void bind_runs(py::module_& module) {
           "save", [](PythonRun& run) { return std::const_pointer_cast<Snapshot>(run.save()); },
           "The run as it is now, with its curves so far; see restore.")
       .def(
-          "restore", [](PythonRun& run, const Snapshot& snapshot) { run.restore(snapshot); }, py::arg("snapshot"),
-          "Everything as it was when the snapshot was taken: the next steps have the same bits as they had then.\n\n"
-          "The snapshot may be of another run of an equal case (functions of time may be others). Curves, frames and\n"
-          "checkpoints that are later are removed from the results folder. Raises CheckpointError for another case.")
+          "_restore", [](PythonRun& run, const Snapshot& snapshot) { run.restore(snapshot); }, py::arg("snapshot"))
       .def_property_readonly("time", &PythonRun::time, "Time reached, in the case's unit.")
       .def_property_readonly("steps", &PythonRun::steps, "Number of steps made so far.")
       .def_property_readonly("end", &PythonRun::end, "Time at which the run ends, in the case's unit.")

@@ -61,6 +61,7 @@ struct ChartData {
 struct Tables {
   std::optional<CsvTable> energy{}, contact{}, probes{}, parts{}, probes_filtered{}, contact_filtered{}, exact{};
   std::optional<CsvTable> spectra{};  ///< over frequency
+  std::vector<std::string> ties{};    ///< contacts that hold together and meet nothing
 };
 
 /// What numbers are compared with before they are called round-off; zero where nothing is known.

@@ -181,12 +181,7 @@ std::vector<PageView> views_of(std::vector<NamedRun>& runs, std::size_t most_byt
 }  // namespace
 
 std::string tables_of_runs(const std::vector<std::string>& results_folders, const std::string& format) {
-  const std::vector<NamedRun> runs = read_runs(results_folders);
-  std::string text;
-  for (const DataTable& table : {runs.size() > 1 ? input_differences(runs) : DataTable{}, figures_of_runs(runs),
-                                 checks_of_runs(runs), energies_of_runs(runs)})
-    if (!table.rows.empty()) text += (text.empty() ? "" : "\n") + format_table(table, format);
-  return text;
+  return tables_text(read_runs(results_folders), format);
 }
 
 void write_comparison(const std::vector<std::string>& results_folders, const std::string& file) {
@@ -200,8 +195,8 @@ void write_comparison(const std::vector<std::string>& results_folders, const std
     std::string content =
         fmt::format("<header>\n<p class=\"kicker\">Carom · runs compared</p>\n<h1>{}</h1>\n</header>\n", title);
     content += runs_table(runs, folder) + differences_section(runs) + table_section(figures_of_runs(runs)) +
-               view_sections(views) + table_section(checks_of_runs(runs)) + chart_figures(charts) +
-               table_section(energies_of_runs(runs));
+               view_sections(views) + table_section(checks_of_runs(runs)) + table_section(largest_of_runs(runs)) +
+               table_section(parts_of_runs(runs)) + chart_figures(charts) + table_section(energies_of_runs(runs));
     content += fmt::format(
         "<footer>\n{}{}</footer>\n", foldable("Licence of dygraphs, which draws the curves", assets::dygraph_licence),
         views.empty() ? "" : foldable("Licence of three.js, which draws the view", assets::three_licence));

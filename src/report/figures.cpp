@@ -95,6 +95,8 @@ Vec3 vector_at(const CsvTable& table, const std::string& place, std::string_view
   return v;
 }
 
+using Names = std::vector<std::string>;
+
 struct Peak {
   double value = 0.0, time = 0.0;
 };
@@ -117,28 +119,117 @@ std::string class_of(const CsvTable& filtered, std::string_view column) {
   return "filtered";
 }
 
-void add_peak_forces(const Tables& tables, const Units& units, std::vector<KeyFigure>& figures) {
+/// Places of contact.csv with a quantity that meet something, or those that are tied.
+std::vector<std::string> contacts_with(const CsvTable& contact, std::string_view quantity, const Names& ties,
+                                       bool are_ties = false) {
+  std::vector<std::string> places = places_with(contact, quantity);
+  std::erase_if(places,
+                [&](const std::string& place) { return (std::ranges::find(ties, place) != ties.end()) != are_ties; });
+  return places;
+}
+
+/// The impulse of a place up to a time, which is linear between rows; rows are searched from `row` on, which is moved.
+Vec3 impulse_at(const CsvTable& contact, const std::string& place, double t, std::size_t& row) {
+  const std::vector<double>& time = contact.values.front();
+  while (row + 2 < time.size() && time[row + 1] < t) ++row;
+  const double width = time[row + 1] - time[row], share = width > 0.0 ? (t - time[row]) / width : 1.0;
+  const Vec3 begin = vector_at(contact, place, "impulse", row), end = vector_at(contact, place, "impulse", row + 1);
+  Vec3 out{};
+  for (std::size_t i = 0; i < 3; ++i) out[i] = (1.0 - share) * begin[i] + share * end[i];
+  return out;
+}
+
+/// The largest force in the mean over so long a time: of the impulse, so that it is exact however the force jumps
+/// between rows. Windows begin or end at a row, as the largest of a broken line does. Nothing where rows stand farther
+/// apart.
+std::optional<double> largest_mean(const CsvTable& contact, const std::string& place, double window) {
+  const std::vector<double>& time = contact.values.front();
+  if (contact.column(place + ".impulse_x") == nullptr && contact.column(place + ".impulse_z") == nullptr) return {};
+  double widest = 0.0, largest = 0.0;
+  for (std::size_t row = 1; row < time.size(); ++row) widest = std::max(widest, time[row] - time[row - 1]);
+  if (!(window > widest) || !(window < time.back() - time.front())) return {};
+  for (const double before : {0.0, window}) {
+    std::size_t first = 0, last = 0;
+    for (const double t : time) {
+      const double begin = t - before, end = begin + window;
+      if (begin < time.front() || end > time.back()) continue;
+      const Vec3 gone = impulse_at(contact, place, begin, first), come = impulse_at(contact, place, end, last);
+      largest = std::max(largest, length({come[0] - gone[0], come[1] - gone[1], come[2] - gone[2]}) / window);
+    }
+  }
+  return largest;
+}
+
+/// How long a wave takes through a cell at a contact, or at the one that a pair of parts belongs to; 0: not known.
+double crossing_of(const std::optional<Summary>& summary, const std::string& place) {
+  if (summary)
+    for (const NamedValue& crossing : summary->crossings)
+      if (place == crossing.name || place.starts_with(crossing.name + ".")) return crossing.value;
+  return 0.0;
+}
+
+constexpr std::string_view of_enforcement = "goes with the contact's stiffness or the step, and a cell's ringing";
+
+/// Has nothing kinetic energy? Then time is that of loads alone, and no step makes peaks.
+bool is_static(const Tables& tables) {
+  const auto* kinetic = tables.energy ? tables.energy->column("kinetic") : nullptr;
+  return kinetic != nullptr && !kinetic->empty() && *std::ranges::max_element(*kinetic) == 0.0;
+}
+
+/// A force that is no more than its mean over a wave's way through a cell is physical; of any other it is said what
+/// it goes with.
+std::string remark_on_peak(const CsvTable& contact, const std::string& place, const Peak& peak, double crossing,
+                           const Units& units) {
+  constexpr double same = 0.01;
+  const std::string when = "at " + time_text(peak.time, units);
+  const std::optional<double> mean = largest_mean(contact, place, crossing);
+  if (mean && *mean >= (1.0 - same) * peak.value) return when;
+  if (!mean) return fmt::format("{}, in one step; it {}", when, of_enforcement);
+  return fmt::format("{}; at most {} in the mean of {}, a wave's way through a cell: what is above it {}", when,
+                     with_readable_unit(*mean, units.force, 4), time_text(crossing, units), of_enforcement);
+}
+
+void add_peak_forces(const Tables& tables, const std::optional<Summary>& summary, const Units& units,
+                     std::vector<KeyFigure>& figures) {
   const CsvTable& contact = *tables.contact;
+  const auto text = [&](double force) { return with_readable_unit(force, units.force, 4); };
   std::vector<Weighed> all;
-  for (const std::string& place : places_with(contact, "force")) {
+  for (const std::string& place : contacts_with(contact, "force", tables.ties)) {
     const Peak peak = peak_of(contact, place, "force");
-    std::string remark = "at " + time_text(peak.time, units);
     const std::string column = place + ".force_x";
     if (tables.contact_filtered && tables.contact_filtered->column(column) != nullptr) {
       const Peak filtered = peak_of(*tables.contact_filtered, place, "force");
-      remark += fmt::format("; {}: {} at {}", class_of(*tables.contact_filtered, column),
-                            with_readable_unit(filtered.value, units.force, 4), time_text(filtered.time, units));
+      all.push_back(
+          {{fmt::format("Peak force, {}, {}", place, class_of(*tables.contact_filtered, column)), text(filtered.value),
+            fmt::format("at {}; {} unfiltered, which {}", time_text(filtered.time, units), text(peak.value),
+                        of_enforcement),
+            filtered.value, units.force},
+           filtered.value,
+           place});
+      continue;
     }
-    all.push_back({{"Peak force, " + place, with_readable_unit(peak.value, units.force, 4), std::move(remark),
-                    peak.value, units.force},
-                   peak.value,
-                   place});
+    std::string remark = is_static(tables) ? "at " + time_text(peak.time, units)
+                                           : remark_on_peak(contact, place, peak, crossing_of(summary, place), units);
+    all.push_back(
+        {{"Peak force, " + place, text(peak.value), std::move(remark), peak.value, units.force}, peak.value, place});
   }
   if (!all.empty() && std::all_of(all.begin(), all.end(), [](const Weighed& w) { return w.weight == 0.0; })) {
     figures.push_back({"Contact force", "none", "nothing was touched"});
     return;
   }
   keep_largest(all, "Peak force", "none", figures);
+}
+
+void add_ties(const CsvTable& contact, const Names& ties, const Units& units, std::vector<KeyFigure>& figures) {
+  std::vector<Weighed> all;
+  for (const std::string& place : contacts_with(contact, "force", ties, true)) {
+    const Peak peak = peak_of(contact, place, "force");
+    all.push_back({{"Largest force carried by tie " + place, with_readable_unit(peak.value, units.force, 4),
+                    "at " + time_text(peak.time, units), peak.value, units.force},
+                   peak.value,
+                   place});
+  }
+  keep_largest(all, "Force of ties", "none", figures);
 }
 
 void add_peak_accelerations(const Tables& tables, const Units& units, std::vector<KeyFigure>& figures) {
@@ -148,6 +239,7 @@ void add_peak_accelerations(const Tables& tables, const Units& units, std::vecto
     for (const std::string& place : places_with(*tables.probes_filtered, quantity)) {
       const Peak filtered = peak_of(*tables.probes_filtered, place, quantity),
                  raw = peak_of(*tables.probes, place, quantity);
+      const std::optional<double> multiple = multiple_of_g(filtered.value, units);
       const std::string column = fmt::format("{}.{}_x", place, quantity), unit = unit_of_column(units, column),
                         plain = with_readable_unit(filtered.value, unit, 4), g = in_g(filtered.value, units);
       const bool is_local = std::string_view(quantity) == "local_acceleration";
@@ -157,7 +249,7 @@ void add_peak_accelerations(const Tables& tables, const Units& units, std::vecto
                       fmt::format("{}{}at {}; {} unfiltered", g.empty() ? "" : plain, g.empty() ? "" : ", ",
                                   time_text(filtered.time, units),
                                   g.empty() ? with_readable_unit(raw.value, unit, 4) : in_g(raw.value, units)),
-                      filtered.value, unit},
+                      multiple.value_or(filtered.value), multiple ? "g" : unit},
                      filtered.value,
                      place});
     }
@@ -165,10 +257,10 @@ void add_peak_accelerations(const Tables& tables, const Units& units, std::vecto
 }
 
 /// Time with a closed row: an interval between rows of the table counts by half for each of its ends that is closed.
-void add_durations(const CsvTable& contact, const Units& units, std::vector<KeyFigure>& figures) {
+void add_durations(const CsvTable& contact, const Names& ties, const Units& units, std::vector<KeyFigure>& figures) {
   std::vector<Weighed> all;
   const std::vector<double>& time = contact.values.front();
-  for (const std::string& place : places_with(contact, "closed")) {
+  for (const std::string& place : contacts_with(contact, "closed", ties)) {
     const std::vector<double>& closed = *contact.column(place + ".closed");
     double sum = 0.0, first = std::numeric_limits<double>::quiet_NaN();
     int touches = 0;
@@ -192,6 +284,21 @@ void add_durations(const CsvTable& contact, const Units& units, std::vector<KeyF
   keep_largest(all, "Duration of contact", "never closed", figures);
 }
 
+/// Of all touches until the end; nothing where nothing was touched.
+void add_impulses(const CsvTable& contact, const Names& ties, const Units& units, std::vector<KeyFigure>& figures) {
+  const std::string unit = unit_of(units, Dimension::impulse);
+  std::vector<Weighed> all;
+  for (const std::string& place : contacts_with(contact, "impulse", ties)) {
+    const double impulse = length(vector_at(contact, place, "impulse", contact.rows() - 1));
+    all.push_back({{"Impulse, " + place, with_readable_unit(impulse, unit, 4), "of the contact force until the end",
+                    impulse, unit},
+                   impulse,
+                   place});
+  }
+  if (std::ranges::any_of(all, [](const Weighed& w) { return w.weight > 0.0; }))
+    keep_largest(all, "Impulse", "none", figures);
+}
+
 /// Whose record it is: "head", "head, local".
 std::string record_name(const ShockSummary& shock) {
   return shock.quantity == "acceleration" ? shock.probe : shock.probe + ", local";
@@ -211,13 +318,15 @@ void add_shock(const Summary& summary, const Units& units, std::vector<KeyFigure
                       shock.hic36 == shock.hic15 ? "is the same"
                                                  : fmt::format("{}, {}", number_text(shock.hic36, 4),
                                                                interval(shock.hic36_begin, shock.hic36_end)),
-                      filter)},
+                      filter),
+          shock.hic15},
          shock.hic15,
          of});
     pulses.push_back(
         {{"Shock pulse, " + of, time_text(shock.pulse_end - shock.pulse_begin, units),
           fmt::format("above a tenth of its peak of {} g; velocity change {}; {}", number_text(shock.peak_g, 4),
-                      with_readable_unit(shock.velocity_change, unit_of(units, Dimension::velocity), 4), filter)},
+                      with_readable_unit(shock.velocity_change, unit_of(units, Dimension::velocity), 4), filter),
+          shock.pulse_end - shock.pulse_begin, units.time},
          shock.pulse_end - shock.pulse_begin,
          of});
   }
@@ -237,6 +346,8 @@ Weighed speed_figure(const std::string& body, const Vec3& begin, const Vec3& end
   std::string remark = text(before) + " at the beginning";
   constexpr double least_ratio = 1e-3, most_ratio = 100.0;  // others say no more than the speeds themselves
   if (ratio >= least_ratio && ratio <= most_ratio) remark += fmt::format(", ratio {:.3g}", ratio);
+  if (before > 0.0 && after > 0.0)
+    remark += ", velocity change " + text(length({end[0] - begin[0], end[1] - begin[1], end[2] - begin[2]}));
   return {{(is_rebound ? "Rebound speed, " : "Speed at the end, ") + body, text(after), std::move(remark), after, unit},
           std::max(before, after),
           body,
@@ -317,7 +428,8 @@ std::pair<double, LargestValue> largest_value(const Quantity& quantity, const Cs
   std::string value = with_readable_unit(largest, unit, 4);
   if (quantity.name.ends_with("acceleration") && quantity.name != "angular_acceleration")
     if (const std::string g = in_g(largest, units); !g.empty()) value += ", " + g;
-  return {largest, LargestValue{name, std::move(value), time_text(table.values.front()[at], units), quantity.place}};
+  return {largest, LargestValue{name, std::move(value), time_text(table.values.front()[at], units), quantity.place,
+                                quantity.place, largest, unit}};
 }
 
 }  // namespace
@@ -360,7 +472,8 @@ std::vector<LargestValue> largest_values(const Tables& tables, const std::option
   if (stress.instants > 0 && stress.value > 0.0)
     all.push_back({"von Mises stress", with_readable_unit(stress.value, units.stress, 4), time_text(stress.time, units),
                    fmt::format("{}: cell {} at {}", stress.part, stress.cell,
-                               place_text(stress.position, summary->mesh.reach, units.length))});
+                               place_text(stress.position, summary->mesh.reach, units.length)),
+                   "all parts", stress.value, units.stress});
   return all;
 }
 
@@ -422,29 +535,35 @@ PartValues largest_of_parts(const std::optional<CsvTable>& table, const Units& u
     if (of_kind[quantities[i].name] == 0.0) continue;
     if (all.parts.size() == 1) all.quantities.push_back(largest.quantity);
     const bool is_negligible = value <= kNegligible * of_kind[quantities[i].name];
-    all.values.back().push_back(is_negligible ? PartValues::Value{"–", ""}
-                                              : PartValues::Value{largest.value, largest.time});
+    all.values.back().push_back(is_negligible
+                                    ? PartValues::Value{"–", ""}
+                                    : PartValues::Value{largest.value, largest.time, largest.number, largest.unit});
   }
   return all.parts.size() > 1 ? all : PartValues{};
 }
 
-std::optional<double> time_of_largest_force(const std::optional<CsvTable>& contact) {
+std::optional<double> time_of_largest_force(const std::optional<CsvTable>& contact,
+                                            const std::vector<std::string>& ties) {
   if (!contact) return std::nullopt;
-  Peak largest;
-  for (const std::string& place : places_with(*contact, "force"))
-    if (const Peak peak = peak_of(*contact, place, "force"); peak.value > largest.value) largest = peak;
-  return largest.value > 0.0 ? std::optional(largest.time) : std::nullopt;
+  for (const bool are_ties : {false, true}) {
+    Peak largest;
+    for (const std::string& place : contacts_with(*contact, "force", ties, are_ties))
+      if (const Peak peak = peak_of(*contact, place, "force"); peak.value > largest.value) largest = peak;
+    if (largest.value > 0.0) return largest.time;
+  }
+  return std::nullopt;
 }
 
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units) {
   std::vector<KeyFigure> figures;
-  if (tables.contact && tables.contact->rows() > 0) {
-    add_peak_forces(tables, units, figures);
-    add_durations(*tables.contact, units, figures);
-  }
+  const bool has_contact = tables.contact && tables.contact->rows() > 0;
+  if (has_contact && !is_static(tables)) add_impulses(*tables.contact, tables.ties, units, figures);
+  if (has_contact) add_durations(*tables.contact, tables.ties, units, figures);
+  add_speeds(tables, summary, units, figures);
+  if (has_contact) add_peak_forces(tables, summary, units, figures);
   add_peak_accelerations(tables, units, figures);
   if (summary) add_shock(*summary, units, figures);
-  add_speeds(tables, summary, units, figures);
+  if (has_contact) add_ties(*tables.contact, tables.ties, units, figures);
   if (summary) add_stress(*summary, units, figures);
   return figures;
 }

@@ -20,19 +20,25 @@ struct KeyFigure {
   std::string unit{};
 };
 
-/// Peak force of each contact and when, how long each was closed, how fast bodies were before and after, the largest
-/// stress and where. Of curves that are filtered the filtered peak as well; of probes' accelerations that alone, since
-/// nodes of a mesh shake as no sensor does. Head injury criterion and pulse where they are asked for. From the tables
-/// and the summary, as far as they are there; of many contacts, probes or parts the largest four in the order of the
-/// case, and in one more figure what the others are.
+/// First what does not depend on how contact is enforced: impulse of each contact, how long it was closed, how fast
+/// bodies were before and after. Then its peak force and when: the filtered one where its curve is filtered, else that
+/// of a step, with the largest mean over the time of a wave through a cell there (Summary::crossings) where this is
+/// less. The force of ties, which meet nothing, apart. Of probes' accelerations the filtered peak alone, since nodes of
+/// a mesh shake as no sensor does. Head injury criterion and pulse where they are asked for; the largest stress. From
+/// the tables and the summary, as far as they are there; of many contacts, probes or parts the largest four in the
+/// order of the case, and in one more figure what the others are.
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units);
 
-/// When the largest force of all contacts is; nothing where there is none.
-std::optional<double> time_of_largest_force(const std::optional<CsvTable>& contact);
+/// When the largest force of all contacts is, of ties where nothing else has one; nothing where there is none.
+std::optional<double> time_of_largest_force(const std::optional<CsvTable>& contact,
+                                            const std::vector<std::string>& ties = {});
 
 /// The largest magnitude of something over the run.
 struct LargestValue {
   std::string quantity, value, time, where;
+  std::string place{};                                       ///< probe, contact or part alone
+  double number = std::numeric_limits<double>::quiet_NaN();  ///< in `unit`
+  std::string unit{};
 };
 
 /// Of every contact the largest force and penetration, of every probe the largest of each of its quantities (of a
@@ -49,6 +55,8 @@ std::vector<XyPlot> spectrum_plots(const std::optional<CsvTable>& table, const s
 struct PartValues {
   struct Value {
     std::string value, time;
+    double number = std::numeric_limits<double>::quiet_NaN();  ///< in `unit`
+    std::string unit{};
   };
   std::vector<std::string> quantities{};
   std::vector<std::string> parts{};

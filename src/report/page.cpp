@@ -144,10 +144,11 @@ std::string parts_table(const PartValues& of) {
   std::vector<TableRow> rows;
   for (std::size_t p = 0; p < of.parts.size(); ++p) {
     rows.push_back({text_cell(of.parts[p])});
-    for (const auto& [value, time] : of.values[p])
-      rows.back().push_back({fmt::format("{}{}", xml_escape(value),
-                                         time.empty() ? "" : fmt::format("<br><small>at {}</small>", xml_escape(time))),
-                             "number"});
+    for (const PartValues::Value& v : of.values[p])
+      rows.back().push_back(
+          {fmt::format("{}{}", xml_escape(v.value),
+                       v.time.empty() ? "" : fmt::format("<br><small>at {}</small>", xml_escape(v.time))),
+           "number"});
   }
   return "<section>\n<h2>Largest values of the parts</h2>\n" + html_table(columns, rows, "wide") + "</section>\n";
 }

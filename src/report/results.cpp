@@ -10,7 +10,10 @@
 #include <stdexcept>
 #include <string_view>
 #include <utility>
+#include <variant>
 
+#include "base/errors.hpp"
+#include "casefile/read_toml.hpp"
 #include "output/summary.hpp"
 #include "report/charts.hpp"
 #include "report/csv_table.hpp"
@@ -48,6 +51,26 @@ std::string read_case(const fs::path& folder, std::vector<std::string>& notes) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
+/// The contacts of kind tie of a resolved case, as far as it is one.
+std::vector<std::string> ties_of_case(const std::string& text, const std::string& folder) {
+  std::vector<std::string> ties;
+  try {
+    const Node root = read_toml(text, folder);
+    const Node* contacts = find(root, "contact");
+    const auto* list = contacts == nullptr ? nullptr : std::get_if<List>(&contacts->value);
+    const auto text_of = [](const Node& entry, const char* key) {
+      const Node* node = find(entry, key);
+      const auto* found = node == nullptr ? nullptr : std::get_if<std::string>(&node->value);
+      return found == nullptr ? std::string() : *found;
+    };
+    for (std::size_t i = 0; list != nullptr && i < list->size(); ++i)
+      if (text_of((*list)[i], "kind") == "tie") ties.push_back(text_of((*list)[i], "name"));
+  } catch (const CaseError&) {
+    return {};  // cut short
+  }
+  return ties;
+}
+
 /// From the summary, else from the first table that names them.
 Units find_units(const std::optional<Summary>& summary, std::initializer_list<const std::optional<CsvTable>*> tables) {
   if (summary) return units_of(summary->case_info.units);
@@ -76,8 +99,14 @@ ReportData read_results(const std::string& results_folder) {
   if (!tables.energy) data.notes.emplace_back("energy.csv is missing.");
   data.case_text = read_case(folder, data.notes);
   data.units = find_units(data.summary, {&tables.energy, &tables.contact, &tables.probes});
+  tables.ties = data.summary ? data.summary->ties : ties_of_case(data.case_text, results_folder);
+  show_tables(data, tables);
+  return data;
+}
+
+void show_tables(ReportData& data, const Tables& tables) {
   data.figures = key_figures(tables, data.summary, data.units);
-  data.largest_force_at = time_of_largest_force(tables.contact);
+  data.largest_force_at = time_of_largest_force(tables.contact, tables.ties);
   data.largest = largest_values(tables, data.summary, data.units);
   data.parts = largest_of_parts(tables.parts, data.units);
   data.spectra = spectrum_plots(tables.spectra, data.summary, data.units);
@@ -87,7 +116,6 @@ ReportData read_results(const std::string& results_folder) {
     data.title = line.substr(0, line.rfind(" - "));
   }
   if (tables.energy && tables.energy->rows() > 0) data.time_reached = tables.energy->values.front().back();
-  return data;
 }
 
 std::size_t bytes_of_views(std::size_t rest) {

@@ -44,6 +44,13 @@ std::string difference_text(const Entry& first, const Entry& other) {
   return text;
 }
 
+/// A KeyFigure, a LargestValue or a value of parts. What is counted (g, the head injury criterion) is written without
+/// prefixes, and so is its difference.
+template <class Figure>
+Entry entry_of(const Figure& f) {
+  return {f.value, f.number, f.unit, f.unit.empty() || f.unit == "g"};
+}
+
 /// One row per name in the order in which the runs know them.
 class Rows {
  public:
@@ -135,8 +142,39 @@ DataTable input_differences(const std::vector<NamedRun>& runs) {
 DataTable figures_of_runs(const std::vector<NamedRun>& runs) {
   Rows rows(runs);
   for (std::size_t r = 0; r < runs.size(); ++r)
-    for (const KeyFigure& f : runs[r].data.figures) rows.set(f.title, r, {f.value, f.number, f.unit});
+    for (const KeyFigure& f : runs[r].data.figures) rows.set(f.title, r, entry_of(f));
   return rows.table("Key figures", "Figure");
+}
+
+DataTable largest_of_runs(const std::vector<NamedRun>& runs) {
+  const char* const title = "Largest values";
+  if (runs.size() == 1) {
+    DataTable table{title, {{"Quantity"}, {"value", true}, {"time", true}, {"where"}}, {}};
+    for (const LargestValue& l : runs.front().data.largest)
+      table.rows.push_back({l.quantity, l.value, l.time, l.where});
+    return table;
+  }
+  Rows rows(runs);
+  for (std::size_t r = 0; r < runs.size(); ++r)
+    for (const LargestValue& l : runs[r].data.largest)
+      rows.set(fmt::format("{}, {}", l.quantity, l.place), r, entry_of(l));
+  return rows.table(title, "Quantity");
+}
+
+DataTable parts_of_runs(const std::vector<NamedRun>& runs) {
+  const char* const title = "Largest values of the parts";
+  DataTable table{title, {{"Part"}, {"quantity"}, {"value", true}, {"time", true}}, {}};
+  Rows rows(runs);
+  for (std::size_t r = 0; r < runs.size(); ++r) {
+    const PartValues& of = runs[r].data.parts;
+    for (std::size_t p = 0; p < of.parts.size(); ++p)
+      for (std::size_t q = 0; q < of.quantities.size(); ++q) {
+        const PartValues::Value& value = of.values[p][q];
+        if (!std::isnan(value.number)) table.rows.push_back({of.parts[p], of.quantities[q], value.value, value.time});
+        rows.set(fmt::format("{}, {}", of.parts[p], of.quantities[q]), r, entry_of(value));
+      }
+  }
+  return runs.size() == 1 ? table : rows.table(title, "Part and quantity");
 }
 
 DataTable checks_of_runs(const std::vector<NamedRun>& runs) {
@@ -170,6 +208,15 @@ DataTable energies_of_runs(const std::vector<NamedRun>& runs) {
     }
   }
   return rows.table("Energy at the end", unit.empty() ? "energy" : fmt::format("energy [{}]", unit));
+}
+
+std::string tables_text(const std::vector<NamedRun>& runs, const std::string& format) {
+  std::string text;
+  for (const DataTable& table :
+       {runs.size() > 1 ? input_differences(runs) : DataTable{}, figures_of_runs(runs), checks_of_runs(runs),
+        largest_of_runs(runs), parts_of_runs(runs), energies_of_runs(runs)})
+    if (!table.rows.empty()) text += (text.empty() ? "" : "\n") + format_table(table, format);
+  return text;
 }
 
 }  // namespace carom

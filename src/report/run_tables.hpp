@@ -25,4 +25,13 @@ DataTable figures_of_runs(const std::vector<NamedRun>& runs);
 DataTable checks_of_runs(const std::vector<NamedRun>& runs);
 DataTable energies_of_runs(const std::vector<NamedRun>& runs);
 
+/// The largest values of contacts and probes, and those of the parts where there are several; of one run with when (and
+/// where), of several with the differences as above.
+DataTable largest_of_runs(const std::vector<NamedRun>& runs);
+DataTable parts_of_runs(const std::vector<NamedRun>& runs);
+
+/// All of these that have rows, as text in one of the formats of output/data_table.hpp, with empty lines between.
+/// Throws as input_differences does.
+std::string tables_text(const std::vector<NamedRun>& runs, const std::string& format);
+
 }  // namespace carom

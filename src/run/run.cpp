@@ -292,6 +292,7 @@ Summary Run::finish() {
   for (std::string& line : march().log()) summary.notes.push_back(std::move(line));
   for (const auto* seen : {&watched_->watches.rotation.warnings(), &watched_->watches.folds.warnings()})
     summary.warnings.insert(summary.warnings.end(), seen->begin(), seen->end());
+  for (std::string& warning : watched_->watches.artificial.warnings()) summary.warnings.push_back(std::move(warning));
   watched_->recorder.close();
   fill_in(summary);
   summary.cost = {seconds_since(begin_.time),

@@ -15,6 +15,7 @@
 #include "march/body_scales.hpp"
 #include "march/verdict.hpp"
 #include "parallel/threads.hpp"
+#include "run/crossings.hpp"
 
 namespace carom {
 
@@ -104,7 +105,11 @@ Summary summary_of(const Simulation& s) {
   summary.mesh.cells = s.solid().cells().size();
   summary.mesh.reach = reach(s.mesh());
   summary.mesh.checksum = fmt::format("{:016x}", mesh_digest(s.mesh()));
-  for (const CaseContact& contact : s.given().contacts) summary.contacts.push_back(*contact.name);
+  for (const CaseContact& contact : s.given().contacts) {
+    summary.contacts.push_back(*contact.name);
+    if (std::holds_alternative<CaseTie>(contact.of)) summary.ties.push_back(*contact.name);
+  }
+  summary.crossings = crossing_times(s);
   for (const std::string& group : s.mesh().group_names()) {
     const auto cells = s.mesh().cell_groups.find(group);
     summary.mesh.groups.push_back(

@@ -10,6 +10,9 @@
 #include "base/types.hpp"
 #include "element/quad4.hpp"
 #include "math/vec3.hpp"
+#include "parallel/threads.hpp"
+#include "solid/cell_matrices.hpp"
+#include "solid/element_table.hpp"
 #include "solid/quadratic_faces.hpp"
 
 namespace carom {
@@ -41,35 +44,73 @@ class NodeSum {
 };
 
 LoadVector make_load(const NodalForce& load) {
-  return {load.nodes, std::vector<Vec3>(load.nodes.size(), load.force), load.factor};
+  LoadVector out{load.nodes, std::vector<Vec3>(load.nodes.size(), load.force), load.factor};
+  for (std::size_t k = 0; k < load.shares.size(); ++k) out.force[k] = scaled(load.force, load.shares[k]);
+  return out;
 }
 
-/// Adds -p integral of N_a n dA over a face, n dA by the right-hand rule.
-void add_pressure_on_face(const Pressure& load, const Mesh& mesh, const Facet& face, NodeSum& sum) {
+/// Part of the integral of N_a n dA over a face, at one of its nodes.
+struct NodalArea {
+  Index node;
+  double weight;
+  Vec3 direction;
+};
+using FaceAreas = std::vector<NodalArea>;
+
+/// n dA by the right-hand rule.
+FaceAreas areas_of_face(const Mesh& mesh, const Facet& face) {
+  FaceAreas out;
   if (face.size == 3) {
     std::array<Vec3, 3> x{};
     for (std::size_t a = 0; a < 3; ++a) x[a] = mesh.coordinates[at(face[a])];
     const Vec3 twice_area = cross(subtract(x[1], x[0]), subtract(x[2], x[0]));
-    for (const Index node : face) sum.add(node, -load.pressure / 6.0, twice_area);
-    return;
+    for (const Index node : face) out.push_back({node, 1.0 / 6.0, twice_area});
+    return out;
   }
   std::array<Vec3, 4> x{};
   for (std::size_t a = 0; a < 4; ++a) x[a] = mesh.coordinates[at(face[a])];
   for (const quad4::FacePoint& point : quad4::face_points(x))
-    for (std::size_t a = 0; a < 4; ++a) sum.add(face[a], -load.pressure * point.N[a], point.normal_dA);
+    for (std::size_t a = 0; a < 4; ++a) out.push_back({face[a], point.N[a], point.normal_dA});
+  return out;
 }
 
-/// The same on an edge in the x-y plane with normal (dy, -dx), times thickness, or integral of N_a 2 pi x ds of the
+/// The same of an edge in the x-y plane with normal (dy, -dx), times thickness, or integral of N_a 2 pi x ds of the
 /// linear x: 2 pi L (2 x_a + x_b) / 6.
-void add_pressure_on_edge(const Pressure& load, const Mesh& mesh, const Facet& edge, NodeSum& sum) {
+FaceAreas areas_of_edge(const Mesh& mesh, const Facet& edge, const Surface& surface) {
   const Vec3 &x_0 = mesh.coordinates[at(edge[0])], &x_1 = mesh.coordinates[at(edge[1])];
   const Vec3 normal{x_1[1] - x_0[1], x_0[0] - x_1[0], 0.0};
-  double share[2] = {0.5 * load.surface.thickness, 0.5 * load.surface.thickness};
-  if (load.surface.section == Section::axisymmetric) {
-    share[0] = std::numbers::pi / 3.0 * (2.0 * x_0[0] + x_1[0]);
-    share[1] = std::numbers::pi / 3.0 * (x_0[0] + 2.0 * x_1[0]);
+  if (surface.section != Section::axisymmetric)
+    return {{edge[0], 0.5 * surface.thickness, normal}, {edge[1], 0.5 * surface.thickness, normal}};
+  return {{edge[0], std::numbers::pi / 3.0 * (2.0 * x_0[0] + x_1[0]), normal},
+          {edge[1], std::numbers::pi / 3.0 * (x_0[0] + 2.0 * x_1[0]), normal}};
+}
+
+/// Calls on_face(FaceAreas) for each face of a surface, on_end(node) for each end of a bar.
+template <class OnFace, class OnEnd>
+void for_each_face(const Mesh& mesh, const Surface& surface, const OnFace& on_face, const OnEnd& on_end) {
+  std::vector<Facet> facets = surface.facets;
+  for (const QuadraticFace& face : take_quadratic_faces(mesh, facets)) {
+    const auto vectors = nodal_area_vectors(face, mesh, surface.section, surface.thickness);
+    FaceAreas areas;
+    for (std::size_t a = 0; a < static_cast<std::size_t>(node_count(face.type)); ++a)
+      areas.push_back({face.node[a], 1.0, vectors[a]});
+    on_face(areas);
   }
-  for (std::size_t a = 0; a < 2; ++a) sum.add(edge[a], -load.pressure * share[a], normal);
+  for (const Facet& facet : facets) {
+    if (facet.size == 1)
+      on_end(facet[0]);
+    else
+      on_face(facet.size == 2 ? areas_of_edge(mesh, facet, surface) : areas_of_face(mesh, facet));
+  }
+}
+
+/// At some nodes, of what all nodes have, over their sum.
+std::vector<double> shares_at(std::span<const Index> nodes, std::span<const double> of_nodes) {
+  std::vector<double> shares;
+  for (const Index n : nodes) shares.push_back(of_nodes[at(n)]);
+  const double sum = sum_of(shares);
+  for (double& share : shares) share /= sum;
+  return shares;
 }
 
 /// Unit vector out of the body at the end `node` of a bar, along its axis.
@@ -95,22 +136,13 @@ Vec3 end_normal(const Model& model, Index node) {
 }
 
 LoadVector make_load(const Pressure& load, const Model& model) {
-  const Mesh& mesh = *model.mesh;
-  NodeSum sum(mesh.node_count());
-  std::vector<Facet> facets = load.surface.facets;
-  for (const QuadraticFace& face : take_quadratic_faces(mesh, facets)) {
-    const auto shares = nodal_area_vectors(face, mesh, load.surface.section, load.surface.thickness);
-    for (std::size_t a = 0; a < static_cast<std::size_t>(node_count(face.type)); ++a)
-      sum.add(face.node[a], -load.pressure, shares[a]);
-  }
-  for (const Facet& facet : facets) {
-    if (facet.size == 1)
-      sum.add(facet[0], -load.pressure * load.surface.thickness, end_normal(model, facet[0]));
-    else if (facet.size == 2)
-      add_pressure_on_edge(load, mesh, facet, sum);
-    else
-      add_pressure_on_face(load, mesh, facet, sum);
-  }
+  NodeSum sum(model.mesh->node_count());
+  for_each_face(
+      *model.mesh, load.surface,
+      [&](const FaceAreas& face) {
+        for (const NodalArea& area : face) sum.add(area.node, -load.pressure * area.weight, area.direction);
+      },
+      [&](Index end) { sum.add(end, -load.pressure * load.surface.thickness, end_normal(model, end)); });
   return sum.result(load.factor);
 }
 
@@ -130,6 +162,38 @@ LoadVector carried(const LoadVector& load, const Model& model) {
 }
 
 }  // namespace
+
+std::vector<double> area_shares(const Mesh& mesh, const Surface& surface, std::span<const Index> nodes) {
+  std::vector<double> areas(mesh.node_count(), 0.0);
+  for_each_face(
+      mesh, surface,
+      [&](const FaceAreas& face) {
+        Vec3 whole{};
+        for (const NodalArea& area : face) whole = add(whole, scaled(area.direction, area.weight));
+        const Vec3 normal = normalized(whole);
+        for (const NodalArea& area : face) areas[at(area.node)] += area.weight * dot(area.direction, normal);
+      },
+      [&](Index end) { areas[at(end)] += surface.thickness; });
+  return shares_at(nodes, areas);
+}
+
+std::vector<double> mass_shares(const Model& model, std::span<const Index> nodes) {
+  std::vector<double> masses(model.mesh->node_count(), 0.0);
+  for (const Part& part : model.parts) {
+    const CellMass mass_of = cell_mass(find_element(part.type, part.section, part.formulation)->kind);
+    for (const Index cell : part.cells) {
+      const std::span<const Index> own = model.mesh->block(part.type)->nodes(cell);
+      CellNodes X{};
+      for (std::size_t a = 0; a < own.size(); ++a) X[a] = model.mesh->coordinates[at(own[a])];
+      const NodeMatrix M = mass_of(X, part.thickness, part.material.rho);
+      const double all = sum_of({M.data(), own.size() * own.size()});
+      double trace = 0.0;
+      for (std::size_t a = 0; a < own.size(); ++a) trace += M[(own.size() + 1) * a];
+      for (std::size_t a = 0; a < own.size(); ++a) masses[at(own[a])] += M[(own.size() + 1) * a] * all / trace;
+    }
+  }
+  return shares_at(nodes, masses);
+}
 
 std::vector<LoadVector> make_loads(const Model& model) {
   std::vector<LoadVector> loads;

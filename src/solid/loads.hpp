@@ -38,6 +38,11 @@ class Loads {
 /// N_a n dA over the reference facets, exact; dA is measured as Surface says. Throws CaseError for a pressure on a
 /// single node that is not the end of one bar.
 std::vector<LoadVector> make_loads(const Model& model);
+/// The shares that nodes have of a total force: of the area of a surface, integral of N_a dA over its faces, which
+/// makes the traction uniform (a face that is not flat counts by its mean plane), or of the mass of the model's cells,
+/// lumped as MassKind::lumped is. 1 in all.
+std::vector<double> area_shares(const Mesh& mesh, const Surface& surface, std::span<const Index> nodes);
+std::vector<double> mass_shares(const Model& model, std::span<const Index> nodes);
 /// The gravity loads of the model; they act on the mass of the scheme.
 std::vector<Gravity> gravity_loads(const Model& model);
 

@@ -121,6 +121,11 @@ class CompareTest(FolderTest):
         self.assertIn(found.recommended, found.variants)
         self.assertEqual(found.quantity, "force")
         self.assertIn(found.recommended.label, found._repr_html_())
+        self.assertIn("\\begin{tabular}", found.to_latex())
+        made = [v.label for v in found.variants if v.result is not None]
+        self.assertEqual(sum(line.startswith("|") for line in found.to_markdown().splitlines()), 2 + len(made))
+        for label in made:
+            self.assertIn(label, found.to_csv())
 
     def test_a_tree_with_a_mesh_of_arrays_leaves_nothing(self):
         case = falling_block()

@@ -13,7 +13,7 @@ import unittest
 import numpy as np
 
 import carom
-from python_fixture import PROGRAM, FolderTest, falling_block
+from python_fixture import PROGRAM, FolderTest, falling_block, resting_block
 
 TABLES = ("energy.csv", "contact.csv", "probes.csv", "parts.csv")
 
@@ -307,6 +307,7 @@ class ErrorTest(FolderTest):
             run.finish()
         self.assertGreater(caught.exception.step, 0)
         self.assertEqual(caught.exception.time, run.time)
+        self.assertEqual(str(caught.exception).count("step "), 1, caught.exception)  # one place, not two
         with self.assertRaises(carom.RunError):
             run.step()
         run.restore(snapshot)
@@ -314,6 +315,54 @@ class ErrorTest(FolderTest):
         with self.assertRaises(carom.RunError):
             run.finish()
         self.assertEqual(run.stop().verdict, "error")
+
+    def test_arguments_of_the_wrong_kind_are_refused_in_a_sentence(self):
+        run = falling_block().start()
+        with self.assertRaisesRegex(TypeError, "^n: 1.5, and a number of steps is wanted$"):
+            run.step(1.5)
+        with self.assertRaisesRegex(TypeError, "^time: 'end', and a number is wanted$"):
+            run.until("end")
+        with self.assertRaisesRegex(TypeError, "^every: '2', and a number of steps, at least 1, is wanted$"):
+            run.observe(print, every="2")
+        with self.assertRaisesRegex(TypeError, "^snapshot: 3, and what Run.save gives is wanted$"):
+            run.restore(3)
+        with self.assertRaisesRegex(TypeError, "^threads: 'all', and a number of cores, or 0 for all, is wanted$"):
+            falling_block().start(threads="all")
+        with self.assertRaisesRegex(TypeError, "^end: 'later', and a time is wanted$"):
+            carom.resume("out", end="later")
+        run.step(np.int32(1))  # numpy's numbers are numbers
+        run.until(np.float32(1e-6))
+
+    def test_names_that_are_none_are_answered_with_those_there_are(self):
+        case = falling_block()
+        run = case.start()
+        with self.assertRaisesRegex(KeyError, "there is no contact 'flor'; there are floor; did you mean 'floor'?"):
+            _ = run.contact["flor"]
+        with self.assertRaisesRegex(KeyError, "no column 'top.velocity_w'; there are .*did you mean 'top.velocity_"):
+            _ = run.history["top.velocity_w"]
+        with self.assertRaisesRegex(KeyError, "no field 'stres'; there are .*did you mean 'stress'?"):
+            _ = run.fields["stres"]
+        with self.assertRaisesRegex(KeyError, "no section or value 'probes'; there are title, .*did you mean 'probe'?"):
+            _ = case["probes"]
+        with self.assertRaisesRegex(KeyError, "no group 'TIP'; there are .*TOP"):
+            run.mesh.nodes_of("TIP")
+        self.assertIsNone(run.contact.get("flor"))
+        self.assertEqual(list(run.contact), ["floor"])
+
+    def test_a_total_force_is_shared(self):
+        case = resting_block()
+        case["load"] = [{"total_force": np.array([0.0, 0.0, -100.0]), "group": "TOP"}]
+        self.assertIn('load      on "TOP": (0, 0, -100) N in all', str(case.check()))
+
+    def test_tables_are_those_of_the_command(self):
+        case = falling_block()
+        result = case.start("out").finish()
+        for form, text in (("markdown", result.to_markdown()), ("latex", result.to_latex()), ("csv", result.to_csv())):
+            told = subprocess.run([PROGRAM, "report", "--format", form, "out"], capture_output=True, text=True, check=True)
+            self.assertEqual(text, told.stdout)
+        self.assertIn("| velocity |", result.to_markdown())  # of the probe
+        in_memory = case.start().finish().to_csv()
+        self.assertEqual(in_memory.replace(",value\n", ",out\n"), result.to_csv())
 
     def test_output_error(self):
         pathlib.Path("file").write_text("")

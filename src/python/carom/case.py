@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _carom
+from carom._arguments import unknown
 from carom.mesh import Mesh
 from carom.run import Run
 
@@ -55,7 +56,9 @@ class Case(MutableMapping[str, Any]):
         self._mesh_text: str | None = None
 
     def __getitem__(self, key: str) -> Any:
-        """A section or value of the case. Raises KeyError where it has none."""
+        """A section or value of the case. Raises KeyError, which lists those there are."""
+        if key not in self._tree:
+            raise unknown("section or value", key, self._tree)
         return self._tree[key]
 
     def __setitem__(self, key: str, value: Any) -> None:
@@ -156,7 +159,7 @@ class Case(MutableMapping[str, Any]):
         for entry in contacts:
             if entry.get("name") == name:
                 return entry  # type: ignore[no-any-return]
-        raise KeyError(f"there is no contact {name!r}; there are {', '.join(str(c.get('name')) for c in contacts) or 'none'}")
+        raise unknown("contact", name, (str(c.get("name")) for c in contacts))
 
     def copy(self) -> Case:
         """A case of its own, with the same values, functions and mesh."""
@@ -181,7 +184,7 @@ class Case(MutableMapping[str, Any]):
         for all; results do not depend on it. Raises CaseError, OutputError, and RunError where there is no way to
         start.
         """
-        return Run(self._prepared(), "" if folder is None else os.fspath(folder), threads)
+        return Run(self._prepared(), "" if folder is None else os.fspath(folder), threads=threads)
 
     def resolved(self) -> str:
         """The case as a text of TOML with all defaults written out. Raises CaseError."""

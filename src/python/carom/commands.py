@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _carom, _html
+from carom._arguments import number, whole
 from carom._optional import needed
 from carom.case import Case, load
 from carom.curves import Curves
@@ -66,9 +67,9 @@ def material(case: Case | str | os.PathLike[str],
 
     Raises CaseError for a case, part or path that is none, and RunError where the law gives no number.
     """
-    if steps < 1:
+    if whole("steps", steps, "a number of steps, at least 1,") < 1:
         raise ValueError(f"steps: {steps}, and a number of steps is wanted, at least 1")
-    if not rate > 0.0:
+    if not number("rate", rate, "a rate of strain > 0") > 0.0:
         raise ValueError(f"rate: {rate}, and a rate of strain > 0 is wanted")
     table, name_of_path = None, "table of arrays"
     if not isinstance(path, Mapping):
@@ -151,6 +152,20 @@ class Comparison:
     """Along "cells", "step" and "stiffness", by what the variants have in common: "order", "least" and "largest"."""
     folder: str
     """Where compare.html, compare.csv and the runs are; "" where nothing was kept."""
+    tables: dict[str, str]
+    """The variants as one table of text, by format: "text", "markdown", "latex", "csv", as `carom compare --format` prints it."""
+
+    def to_markdown(self) -> str:
+        """The table of the variants in Markdown, as `carom compare --format markdown` prints it."""
+        return self.tables["markdown"]
+
+    def to_latex(self) -> str:
+        """The same as a `tabular` of LaTeX, which needs no package."""
+        return self.tables["latex"]
+
+    def to_csv(self) -> str:
+        """The same as comma-separated values."""
+        return self.tables["csv"]
 
     def to_pandas(self) -> Any:
         """As a pandas.DataFrame, one row per variant, whose index is the label. Raises ImportError where pandas is not
@@ -234,14 +249,15 @@ def _compared(case: Case, choices: _Choices, reference: str, folder: pathlib.Pat
         mesh_file.write_text(case._mesh_text, encoding="utf-8")
     home = str(pathlib.Path(__file__).resolve().parent.parent)
     program = [sys.executable, "-c", f"import sys; sys.path.insert(0, {home!r}); from carom._variant import main; main()"]
-    found = json.loads(_carom.compare(tree, case._source, case.file, *choices, reference, program, str(folder), jobs,
-                                      progress))
+    text, tables = _carom.compare(tree, case._source, case.file, *choices, reference, program, str(folder),
+                                  whole("jobs", jobs, "a number of processes, or 0 for all cores,"), progress)
+    found = json.loads(text)
     variants = {v["name"]: _variant(v, folder / "variants" / v["name"], is_kept) for v in found["variants"]}
     advice = found["recommendation"]
     reasons = [reason.replace("--", "") for reason in advice["reasons"]]  # options of the command are arguments here
     return Comparison(list(variants.values()), variants.get(advice["variant"]), advice["headline"], reasons,
                       found["ranked_by"], variants.get(found["reference_run"]), found["orders"],
-                      str(folder) if is_kept else "")
+                      str(folder) if is_kept else "", tables)
 
 
 def _variant(found: dict[str, Any], folder: pathlib.Path, is_kept: bool) -> Variant:

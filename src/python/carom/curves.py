@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom import _carom
+from carom._arguments import unknown
 from carom._optional import needed
 
 
@@ -32,7 +33,7 @@ class Curves(Mapping[str, NDArray[np.float64]]):
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """The column of this name. Raises KeyError, which lists the names there are."""
         if name not in self._at:
-            raise KeyError(f"{name}; there are {', '.join(self._at)}")
+            raise unknown("column", name, self._at)
         return self._rows[:, self._at[name]]
 
     def unit(self, name: str) -> str:

@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from carom import _carom
+from carom._arguments import unknown
 from carom._optional import needed
 from carom.mesh import Mesh
 
@@ -64,11 +65,6 @@ def _field_kind(name: str, units: str) -> FieldKind:
     return FieldKind(name, "nodes" if is_at_nodes else "cells", tuple(components), unit, meaning)
 
 
-def _unknown(what: str, name: str, known: Sequence[str], remedy: str = "") -> KeyError:
-    """An error with the names that there are."""
-    return KeyError(f"there is no {what} {name!r}; there are {', '.join(known) or 'none'}{remedy}")
-
-
 class _Source(Protocol):
     """Where frames stand."""
 
@@ -108,7 +104,7 @@ class Frames(Mapping[str, NDArray[Any]]):
         """A field in one frame, (rows,) or (rows, components); frame: its position, from the end where it is negative.
         Raises KeyError, which lists the fields there are, and IndexError."""
         if name not in self.kinds:
-            raise _unknown("field", name, list(self.kinds))
+            raise unknown("field", name, list(self.kinds))
         count = len(self._source.times())
         if not -count <= frame < count:
             raise IndexError(f"frame {frame} of {count}")
@@ -118,7 +114,7 @@ class Frames(Mapping[str, NDArray[Any]]):
     def __getitem__(self, name: str) -> NDArray[Any]:
         """A field in all frames. Raises KeyError, which lists the fields there are."""
         if name not in self.kinds:
-            raise _unknown("field", name, list(self.kinds))
+            raise unknown("field", name, list(self.kinds))
         return np.array([self.at(name, frame) for frame in range(len(self._source.times()))])
 
     def __iter__(self) -> Iterator[str]:

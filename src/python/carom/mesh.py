@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from carom import _carom
+from carom._arguments import unknown
 from carom._optional import needed
 
 _MESHIO = {"point1": "vertex", "line2": "line", "line3": "line3", "tria3": "triangle", "tria6": "triangle6",
@@ -75,7 +76,7 @@ class Mesh:
     def nodes_of(self, group: str) -> NDArray[np.int32]:
         """Rows of the points of a node group and of the cells of a cell group of this name, sorted. Raises KeyError."""
         if group not in self.node_groups and group not in self.cell_groups:
-            raise KeyError(group)
+            raise unknown("group", group, [*self.node_groups, *self.cell_groups])
         found = [np.asarray(self.node_groups.get(group, []), dtype=np.int32)]
         found += [np.ravel(self.cells[name][rows]) for name, rows in self.cell_groups.get(group, {}).items()]
         return np.unique(np.concatenate(found)).astype(np.int32)

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from carom import _carom, _html
+from carom._arguments import whole
 from carom.curves import Curves
 from carom.fields import Frames, read_frames
 
@@ -78,6 +79,23 @@ class Result:
         found = _carom.key_figures(self._summary_text, self.energy._table, self.contact._table, self.probes._table)
         return [(title, value, remark) for title, value, remark in found]
 
+    def to_markdown(self) -> str:
+        """Key figures, checks, largest values of contacts, probes and parts, and energies at the end as tables in Markdown,
+        as `carom report --format markdown` prints them. Filtered curves are known where there is a folder."""
+        return self._tables("markdown")
+
+    def to_latex(self) -> str:
+        """The same tables as `tabular`s of LaTeX, which need no package."""
+        return self._tables("latex")
+
+    def to_csv(self) -> str:
+        """The same tables as comma-separated values, with empty lines between."""
+        return self._tables("csv")
+
+    def _tables(self, form: str) -> str:
+        of_run = [curves._table for curves in (self.energy, self.contact, self.probes, self.parts)]
+        return _carom.tables(self.folder, self._summary_text, of_run, form)
+
     def view(self, height: int = 640, most_bytes: int = 4_000_000) -> View:
         """The bodies in motion, for a notebook: the view of the report as a page of its own in a frame, which needs no
         network. height: of the frame, in pixels; most_bytes: what the page may take, libraries included.
@@ -86,7 +104,7 @@ class Result:
         if not self.folder:
             raise FileNotFoundError("the view is made of the frames in a results folder, and this run had none: "
                                     'case.start("out")')
-        return View(_carom.view_page(self.folder, most_bytes), height)
+        return View(_carom.view_page(self.folder, whole("most_bytes", most_bytes, "a number of bytes")), height)
 
     def __repr__(self) -> str:
         """Verdict and message."""

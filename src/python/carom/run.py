@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable, Sequence
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from carom import _carom, _html
+from carom._arguments import Named, number, unknown, whole
 from carom.curves import ContactState, Curves, contact_states
-from carom.fields import Cells, FieldKind, Frames, NodalForces, _cells_of, _field_kind, _KeptFrames, _unknown
+from carom.fields import Cells, FieldKind, Frames, NodalForces, _cells_of, _field_kind, _KeptFrames
 from carom.mesh import Mesh
 from carom.result import Result, _joined, _pictures
 
@@ -27,6 +28,41 @@ class Run(_carom.RunBase):
     the lock on its folder, threads) goes with it when nobody refers to it any more, finished or not.
     """
 
+    def __init__(self, origin: _carom.PreparedCase | str, *more: Any, threads: Any) -> None:
+        """Made by Case.start and resume."""
+        super().__init__(origin, *more, whole("threads", threads, "a number of cores, or 0 for all,"))
+
+    def step(self, n: int = 1) -> None:
+        """Makes n steps, fewer where the run comes to its end.
+
+        Raises RunError where the run cannot go on, OutputError where results cannot be written, and what a function of
+        time or an observer raises. Ctrl-C is answered at the end of the step; the run can go on.
+        """
+        count = whole("n", n, "a number of steps")
+        if count < 0:
+            raise ValueError(f"n: {count}, and a number of steps is wanted")
+        self._advance(np.inf, count)
+
+    def until(self, time: float) -> None:
+        """Steps to the first end of a step at or after `time` (in the case's unit), or to the end of the run.
+
+        Steps are not shortened for it. Raises as step does.
+        """
+        end = number("time", time, "a number")
+        if np.isnan(end):
+            raise ValueError("time: not a number")
+        self._advance(end, -1)
+
+    def restore(self, snapshot: _carom.Snapshot) -> None:
+        """Everything as it was when the snapshot was taken: the next steps have the same bits as they had then.
+
+        The snapshot may be of another run of an equal case (functions of time may be others). Curves, frames and
+        checkpoints that are later are removed from the results folder. Raises CheckpointError for another case.
+        """
+        if not isinstance(snapshot, _carom.Snapshot):
+            raise TypeError(f"snapshot: {snapshot!r}, and what Run.save gives is wanted")
+        self._restore(snapshot)
+
     def observe(self, observer: _Observer, every: int = 1) -> _Observer:
         """Has `observer(run)` called after every `every`-th step (counted from the start), and after the last.
 
@@ -36,6 +72,7 @@ class Run(_carom.RunBase):
         """
         if not callable(observer):
             raise TypeError("observer: something that can be called with a run")
+        every = whole("every", every, "a number of steps, at least 1,")
         self._observe(every)
         self.__dict__.setdefault("_observers", []).append((observer, every))
         return observer
@@ -58,8 +95,9 @@ class Run(_carom.RunBase):
 
     @property
     def contact(self) -> dict[str, ContactState]:
-        """The contacts at the end of the last step, by name: `run.contact["floor"].force[2]`."""
-        return contact_states(*self._contact())
+        """The contacts at the end of the last step, by name: `run.contact["floor"].force[2]`. A name that is none is a
+        KeyError that lists them."""
+        return Named("contact", contact_states(*self._contact()))
 
     @property
     def history(self) -> Curves:
@@ -101,7 +139,7 @@ class Run(_carom.RunBase):
     def fields(self) -> dict[str, FieldKind]:
         """The fields that `field` can be asked for, with place, components, unit and meaning. `contact_slip`, which is a
         sum over the steps, is there where the case asks for it in `output.fields` or in a probe."""
-        return {name: _field_kind(name, self._units()) for name in self._fields()}
+        return Named("field", {name: _field_kind(name, self._units()) for name in self._fields()})
 
     def field(self, name: str) -> NDArray[np.float64]:
         """A field of docs/quantities.md at the end of the last step: (nodes,) or (cells,), and (..., components) where it
@@ -110,7 +148,7 @@ class Run(_carom.RunBase):
         bits; nothing of it is kept. Raises KeyError, which lists the fields there are."""
         if name not in self._fields():
             remedy = "; contact_slip wants to be in output.fields of the case" if name == "contact_slip" else ""
-            raise _unknown("field", name, self._fields(), remedy)
+            raise unknown("field", name, self._fields(), remedy)
         return self._field(name)
 
     @property
@@ -126,7 +164,7 @@ class Run(_carom.RunBase):
         of a pair to nothing. Nodes of rigid bodies have none, their forces act on the body. Raises KeyError, which lists
         the contacts."""
         if name not in self._contact_names():
-            raise _unknown("contact", name, self._contact_names())
+            raise unknown("contact", name, self._contact_names())
         nodes, force = self._contact_at_nodes(name)
         return NodalForces(nodes, self.node_numbers[nodes], force)
 
@@ -181,4 +219,5 @@ def resume(folder: str | os.PathLike[str], end: float | None = None, threads: in
     the folder cannot be gone on from, OutputError where another run holds it, and CaseError where the case has
     functions that a program computes: these are not in the folder; take snapshots instead (Run.save).
     """
-    return Run(os.fspath(folder), end, threads)
+    last = None if end is None else number("end", end, "a time")
+    return Run(os.fspath(folder), last, threads=threads)

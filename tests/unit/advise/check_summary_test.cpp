@@ -39,5 +39,15 @@ TEST(CheckSummary, HasThoseOfAllPartsTogether) {
       << text;
 }
 
+// A tie has no gap to close, however far apart its rows' makers look.
+TEST(CheckSummary, SaysThatTiesHoldTheirSidesTogether) {
+  const std::string text = summary_of(
+      "[[mesh.block]]\norigin = [0.0, 0.0, 3.0]\nsize = [2.0, 2.0, 1.0]\ndivisions = [3, 3, 1]\n"
+      "groups = { cells = \"CAP\", zmin = \"SOLE\" }\n"
+      "[[part]]\nname = \"cap\"\ncells = \"CAP\"\nmaterial = \"soft\"\n"
+      "[[contact]]\nname = \"glue\"\nkind = \"tie\"\ngroup = \"SOLE\"\nmaster = \"HEAD\"\n");
+  EXPECT_NE(text.find("  contact   \"glue\": holds its sides together\n"), std::string::npos) << text;
+}
+
 }  // namespace
 }  // namespace carom::advise_check_summary_test

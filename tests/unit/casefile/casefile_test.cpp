@@ -203,6 +203,25 @@ TEST(Casefile, PointMassesAndSprings) {
   EXPECT_EQ(*c.equations[0].terms[1].coefficient, -0.5);
 }
 
+TEST(Casefile, AForceIsThatOfEachNodeOrOfAllTogether) {
+  const auto loads = [](const std::string& keys) {
+    return parse_case(minimal + "[[load]]\ngroup = \"FOOT\"\n" + keys, "c.toml").loads;
+  };
+  const CaseLoad load = loads("total_force = [1.0, 0.0, 2.0]\n").at(0);
+  EXPECT_EQ(load.kind, CaseLoad::Kind::total_force);
+  EXPECT_EQ(load.vector, (Vec3{1.0, 0.0, 2.0}));
+  try {
+    loads("force = [1.0, 0.0, 0.0]\ntotal_force = [1.0, 0.0, 0.0]\n");
+    FAIL() << "no error";
+  } catch (const CaseError& error) {
+    EXPECT_NE(std::string(error.what())
+                  .find("load[0]: found force and total_force together; expected exactly one of "
+                        "force, total_force, pressure, gravity"),
+              std::string::npos)
+        << error.what();
+  }
+}
+
 TEST(Casefile, ContactsAndFunctions) {
   const Case c = complete();
   ASSERT_EQ(c.contacts.size(), 4U);

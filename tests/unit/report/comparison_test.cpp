@@ -95,7 +95,46 @@ TEST_F(ReportComparison, SaysThatNothingDiffersOrThatItIsNotKnown) {
 TEST_F(ReportComparison, HasTheTablesOfOneRun) {
   const std::string tables = tables_of_runs({first_.string()}, "text");
   EXPECT_EQ(tables.find("differ"), std::string::npos);
-  EXPECT_NE(tables.find("Largest von Mises stress    410 MPa\n"), std::string::npos) << tables;
+  EXPECT_NE(tables.find("Largest von Mises stress     410 MPa\n"), std::string::npos) << tables;
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << "# units: m, s, kg, N, Pa, J\n" << text;
+}
+
+// Accelerations of 1000 and 1500 times 9.80665 m/s2; the differences are in the units of the values.
+TEST_F(ReportComparison, HasDifferencesOfShocks) {
+  for (const auto& [run, factor] : {std::pair{first_, 1.0}, std::pair{second_, 1.5}}) {
+    Summary summary = read_summary((run / "summary.json").string());
+    summary.shock = {{.probe = "head", .quantity = "acceleration", .cfc = 1000.0, .peak_g = 1000.0 * factor}};
+    summary.shock[0].hic15 = summary.shock[0].hic36 = 250.0 * factor;
+    summary.shock[0].pulse_end = 4e-3 / factor;
+    write_summary((run / "summary.json").string(), summary);
+    const std::string rows = fmt::format("time,head.acceleration_x\n0,0\n1,{}\n", 9806.65 * factor);
+    write_text(run / "probes.csv", rows);
+    write_text(run / "probes_filtered.csv", "# head.acceleration_x: SAE J211 CFC 1000\n" + rows);
+  }
+  const std::string tables = tables_of_runs({first_.string(), second_.string()}, "csv");
+  for (const char* row :
+       {"\n\"HIC15, head\",250,375,+125 (+50 %)\n", "\n\"Shock pulse, head\",4 ms,2.667 ms,-1.33 ms (-33.3 %)\n",
+        "\n\"Peak acceleration, head, CFC 1000\",1000 g,1500 g,+500 g (+50 %)\n"})
+    EXPECT_NE(tables.find(row), std::string::npos) << row << tables;
+}
+
+TEST_F(ReportComparison, HasThePeaksOfProbesAndOfParts) {
+  for (const auto& [run, energy] : {std::pair{first_, 6}, std::pair{second_, 3}})
+    write_text(run / "parts.csv",
+               fmt::format("time,glass.kinetic_energy,foam.kinetic_energy\n0,{},1\n1,0,2\n", energy));
+  const std::string one = tables_of_runs({first_.string()}, "csv");
+  for (const char* row : {"\nglass,kinetic energy,6 J,0 s\n", "\nfoam,kinetic energy,2 J,1 s\n",
+                          "\ndisplacement,2.2 mm,50 µs,\"B: node 1 at (0, 0, 0.02) m\"\n"})  // 100 m/s over 22 us
+    EXPECT_NE(one.find(row), std::string::npos) << row << one;
+  const std::string both = tables_of_runs({first_.string(), second_.string()}, "csv");
+  for (const char* row :
+       {"\n\"glass, kinetic energy\",6 J,3 J,-3 J (-50 %)\n", "\n\"displacement, B\",2.2 mm,2.2 mm,none\n"})
+    EXPECT_NE(both.find(row), std::string::npos) << row << both;
+  write_comparison({first_.string(), second_.string()}, (folder_ / "both.html").string());
+  EXPECT_NE(text_of(folder_ / "both.html").find("<h2>Largest values of the parts</h2>"), std::string::npos);
 }
 
 // In all pictures: a colour for a run, a kind of line for what its curves are called there.

@@ -237,6 +237,22 @@ TEST_F(ReportPage, InterruptedRunStillHasAReport) {
   EXPECT_EQ(json["charts"][0]["unit"], "mm");
 }
 
+// Of the case while there is no summary, of that once there is.
+TEST_F(ReportPage, TiesHaveALineOfTheirOwn) {
+  const char* const line = "<dt>Largest force carried by tie wall</dt><dd><strong>499.4 kN</strong> at 20.01 µs</dd>";
+  EXPECT_FALSE(contains(page(), line));
+  Summary summary = read_summary((folder_ / "summary.json").string());
+  summary.ties = {"wall"};
+  write_summary((folder_ / "summary.json").string(), summary);
+  EXPECT_TRUE(contains(page(), line));
+  fs::remove(folder_ / "summary.json");
+  EXPECT_FALSE(contains(page(), line));
+  std::ofstream(folder_ / "case.resolved.toml", std::ios::app) << "[[contact]]\nname = \"wall\"\nkind = \"tie\"\n";
+  const std::string running = page();
+  EXPECT_TRUE(contains(running, line));
+  EXPECT_FALSE(contains(running, "Duration of contact, wall"));
+}
+
 TEST_F(ReportPage, EmptyOrDamagedFolderStillHasAReport) {
   std::ofstream(folder_ / "summary.json") << "{\"outcome\": \"go";
   for (const char* name : {"energy.csv", "contact.csv", "probes.csv", "exact.csv"}) std::ofstream(folder_ / name) << "";

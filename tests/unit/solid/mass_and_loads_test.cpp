@@ -185,13 +185,18 @@ TEST(SolidLoads, PressureOnQuadraticFacesIsConsistent) {
       if (std::all_of(facet.begin(), facet.end(),
                       [&](Index n) { return mesh.coordinates[static_cast<std::size_t>(n)][up] > 1.0 - 1e-9; }))
         top.push_back(facet);
-    const std::vector<Vec3> force = forces_of_suction(mesh, top, is_plane ? Section::plane_strain : Section::solid);
+    const Section section = is_plane ? Section::plane_strain : Section::solid;
+    const std::vector<Vec3> force = forces_of_suction(mesh, top, section);
+    std::vector<Index> all(mesh.node_count());
+    std::iota(all.begin(), all.end(), Index{0});
+    const std::vector<double> shares = area_shares(mesh, {top, section, 1.0}, all);  // of a total force: likewise
     for (std::size_t n = 0; n < force.size(); ++n) {
       const Vec3& x = mesh.coordinates[n];
       if (x[up] < 1.0 - 1e-9) continue;
       std::size_t middles = 0;
       for (std::size_t c = 0; c < up; ++c) middles += std::abs(x[c] - 0.5) < 1e-9 ? 1 : 0;
       EXPECT_NEAR(force[n][up], expected[middles], round_off) << name(type);
+      EXPECT_NEAR(shares[n], expected[middles], round_off) << name(type);
     }
   }
 }
