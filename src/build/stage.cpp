@@ -232,7 +232,7 @@ void Stage::refuse_loads_without_hold() const {
   std::vector<double> f(context_.solid.dof_count());
   const std::vector<double> zero(f.size(), 0.0);
   for (const double t : {begin_ + dt_, end()}) {
-    context_.solid.loads().force(t, JumpSide::after, mass_, f);
+    context_.solid.loads().force(t, mass_, f);
     const std::vector<double> motion = free.unheld({}, {}, zero, f, f);
     if (is_zero(motion)) continue;
     throw CaseError(

@@ -116,7 +116,7 @@ Frame frame_of(DeckCursor& at, const std::string& type) {
   }
   frame.x = normalized(along);
   const Vec3 generator = subtract(vector_of(at), frame.origin);
-  const Vec3 across = cross(generator, frame.x);
+  const Vec3 across = cross(frame.x, generator);  // the local z-axis points against the generator
   if (norm(across) == 0.0) at.fail("a generator along the local x-axis", "a point beside it");
   frame.y = normalized(across);
   frame.z = cross(frame.x, frame.y);

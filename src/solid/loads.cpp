@@ -224,7 +224,7 @@ Loads::Loads(const Model& model) : vectors_(make_loads(model)), gravity_(gravity
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
-void Loads::force(double t, JumpSide side, const Mass& mass, std::span<double> f) const {
+void Loads::force(double t, const Mass& mass, std::span<double> f, JumpSide side) const {
   std::fill(f.begin(), f.end(), 0.0);
   for (const LoadVector& load : vectors_) {
     const double factor = load.factor(t, side);

@@ -26,7 +26,7 @@ class Loads {
   const std::vector<Index>& nodes() const { return nodes_; }
   /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity acts on the mass that the
   /// scheme uses.
-  void force(double t, JumpSide side, const Mass& mass, std::span<double> f) const;
+  void force(double t, const Mass& mass, std::span<double> f, JumpSide side = JumpSide::after) const;
 
  private:
   std::vector<LoadVector> vectors_;

@@ -47,7 +47,7 @@ void evaluate_bodies(const System& system, const PointStep& step, State& end) {
 void evaluate_loads(const System& system, double t, Forces& forces, JumpSide side) {
   if (system.solid.loads().empty()) return forces.external.value.clear();
   forces.external.value.resize(system.solid.dof_count());
-  system.solid.loads().force(t, side, system.mass, forces.external.value);
+  system.solid.loads().force(t, system.mass, forces.external.value, side);
 }
 
 Momentum momentum_from(const double* sums) {

@@ -104,7 +104,12 @@ class Actions {
       found->what = wanted.what;
     }
     if (found->body != nullptr && value != 0.0) found->where = wanted.where;
-    if (!found->actions.empty() && found->actions.back().step == step) found->actions.pop_back();
+    if (!found->actions.empty() && found->actions.back().step == step) {
+      if (wanted.keyword != "BOUNDARY" && wanted.what != "gravity")
+        at.fail(fmt::format("this load of {} a second time in its step", wanted.group.empty() ? "all" : wanted.group),
+                "each load once", "Write the sum where both act.");
+      found->actions.pop_back();
+    }
     found->actions.push_back({step, value, amplitude_, false});
   }
 

@@ -45,7 +45,15 @@ std::vector<MaterialKeywords> materials_of(Translation& t) {
   bool is_within = false;
   for (const Statement& s : t.statements.list) {
     const DeckKeyword& keyword = *s.keyword;
-    if (keyword.name == "MATERIAL") materials.push_back({&keyword, {}, {}});
+    if (keyword.name == "MATERIAL") {
+      t.errors.attempt([&] {
+        const std::string name = upper_case(keyword.required("NAME"));
+        for (const MaterialKeywords& other : materials)
+          if (upper_case(other.material->required("NAME")) == name)
+            keyword.fail("the material " + name + " a second time", "one *MATERIAL of a name");
+      });
+      materials.push_back({&keyword, {}, {}});
+    }
     if (names.count(keyword.name) == 0) {
       is_within = keyword.name == "MATERIAL" || (is_within && keyword.name != "STEP");
       continue;

@@ -78,7 +78,12 @@ std::map<std::string, Interaction> interactions_of(Translation& t) {
   for (const Statement& s : t.statements.list) {
     const DeckKeyword& keyword = *s.keyword;
     if (keyword.name == "SURFACE INTERACTION") {
-      last = &all[keyword.required("NAME")];
+      const auto [place, is_new] = all.try_emplace(keyword.required("NAME"));
+      last = &place->second;
+      if (!is_new)
+        t.errors.attempt([&] {
+          keyword.fail("the interaction " + place->first + " a second time", "one *SURFACE INTERACTION of a name");
+        });
       last->keyword = &keyword;
     }
     if (keyword.name != "SURFACE BEHAVIOR" && keyword.name != "FRICTION") continue;

@@ -3,7 +3,9 @@
 
 #include <map>
 #include <set>
+#include <vector>
 
+#include "translate/rigid_body.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -36,12 +38,23 @@ std::set<std::string> quantities_of(Translation& t, const DeckKeyword& keyword) 
 
 void write_probes(Translation& t, const std::string& group, const Asked& asked) {
   constexpr std::size_t most = 16;
-  const std::vector<Index> nodes = t.mesh.mesh.nodes_of(group);
+  std::vector<Index> nodes = t.mesh.mesh.nodes_of(group);
+  const std::size_t in_group = nodes.size();
+  for (const DeckRigidBody& body : t.rigid_bodies) {
+    if (!body.is_obstacle()) continue;
+    const auto is_its = [&](Index n) { return n == body.reference || n == body.turning; };
+    if (std::erase_if(nodes, is_its) > 0)
+      t.findings.note(asked.where,
+                      fmt::format("{}: no probe of the reference node of {}, a rigid surface; its motion is "
+                                  "among the curves of its contacts",
+                                  group, body.name));
+  }
+  if (nodes.empty() || (nodes.size() < in_group && nodes.size() > most)) return;
   const std::vector<std::string> quantities(asked.quantities.begin(), asked.quantities.end());
   const auto add = [&](TableMaker& probe) {
     t.append("probe", probe.add("quantities", texts_node(quantities, asked.where)).node());
   };
-  if (nodes.size() == 1 || nodes.size() > most) {
+  if (in_group == 1 || nodes.size() > most) {
     TableMaker probe(asked.where);
     probe.text("name", group).text("group", group);
     if (nodes.size() > most) t.findings.note(asked.where, group + " has many nodes: one probe of their mean");

@@ -179,11 +179,12 @@ TEST(RigidSurfaces, OfDecksAreMetByGeneralContact) {
   expect_rebound(on_floor_of_deck(turned, general), name);
 }
 
-/// A profile that goes to the right has its outward normal upwards: as a line, along y, and around z.
+/// A profile that goes to the right has its outward normal upwards: as a line, along y, and around z. Of a cylinder the
+/// local z-axis points against the generator (Abaqus keyword *SURFACE; TexGen writes its plates so).
 TEST(RigidSurfaces, OfDecksMayBeAnalytical) {
   const std::string body = "*RIGID BODY, ANALYTICAL SURFACE=FLOOR, REF NODE=11\n";
   const std::string cylinder =
-      "*SURFACE, TYPE=CYLINDER, NAME=FLOOR\n0,0,0,1,0,0\n0,-1,0\nSTART,-5,-1e-3\nLINE,5,-1e-3\n" + body;
+      "*SURFACE, TYPE=CYLINDER, NAME=FLOOR\n0,0,0,1,0,0\n0,1,0\nSTART,-5,-1e-3\nLINE,5,-1e-3\n" + body;
   const std::string revolution =
       "*SURFACE, TYPE=REVOLUTION, NAME=FLOOR\n0,0,0,0,0,1\nSTART,0,-1e-3\nLINE,5,-1e-3\n" + body;
   const std::string segments = "*SURFACE, TYPE=SEGMENTS, NAME=FLOOR\nSTART,-5,-1e-3\nLINE,5,-1e-3\n" + body;
