@@ -29,7 +29,7 @@ std::vector<Doubt> LawDepthWatch::doubts(const Simulation& s) const {
     out.push_back(
         {fmt::format("contact \"{}\" was deeper than its law goes", *given.name),
          fmt::format("{}: contact \"{}\" was pressed to a depth of {:.4g} {}, {:.3g} times the last of its "
-                     "`depths`, {:.4g}: beyond it the last slope was gone on with; give the law up to {:.2g}",
+                     "`depths`, {:.4g}: beyond it the last slope was continued; give the law up to {:.2g}",
                      to_string(given.where), *given.name, depths_[c], unit_name(Dimension::length, s.given().units),
                      depths_[c] / last, last, 1.1 * depths_[c])});
   }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 #include <variant>
 
@@ -41,6 +42,8 @@ class Extent {
       high_[a] = std::max(high_[a], dot(x, axes_[a]));
     }
   }
+  /// The end that comes last.
+  double rear() const { return low_[0]; }
   bool is_empty() const { return low_[0] > high_[0]; }
   double size() const { return norm(subtract(high_, low_)); }
   Vec3 middle() const {
@@ -181,15 +184,15 @@ class StartLint {
 
   void check_overwritten(std::size_t i) {
     if (std::ranges::any_of(nodes_[i], [&](Index n) { return given_by_[at(n)] == i; })) return;
-    std::size_t later = i;
-    for (const Index n : nodes_[i]) later = std::max(later, given_by_[at(n)]);
-    if (later == i || later == none) return;
-    const auto has_one = [](const CaseInitial& initial) { return initial.drop_height ? "drop_height" : "velocity"; };
+    std::set<int> later;
+    for (const Index n : nodes_[i])
+      if (given_by_[at(n)] != none) later.insert(case_.initial[given_by_[at(n)]].where.line);
+    if (later.empty()) return;
     say(case_.initial[i].where,
-        fmt::format("the {} of {} is without effect, since the section of line {} ({}) gives all of these nodes its {} "
-                    "afterwards: give both in one section, where they are added, or remove one",
-                    has_one(case_.initial[i]), key_of(case_.initial[i]), case_.initial[later].where.line,
-                    key_of(case_.initial[later]), has_one(case_.initial[later])));
+        fmt::format("the {} of {} is without effect, since later sections (line {}) give all of these nodes theirs: "
+                    "remove it, or say in one section what is to be added",
+                    case_.initial[i].drop_height ? "drop_height" : "velocity", key_of(case_.initial[i]),
+                    fmt::join(later, ", ")));
   }
 
   void check_fall(std::size_t i) {
@@ -255,7 +258,7 @@ class StartLint {
     if (pair.nature == ContactNature::springs) return pair.direction && dot(*pair.direction, down) < 0.0;
     if (pair.shape == nullptr) return false;
     if (pair.moves()) return true;  // where it comes to is another matter
-    const auto is_ahead = [&](const Vec3& x) { return dot(subtract(x, body.middle()), down) > 0.0; };
+    const auto is_ahead = [&](const Vec3& x) { return dot(x, down) > body.rear(); };
     if (const auto* plane = std::get_if<Plane>(pair.shape)) return dot(plane->normal, down) < -rounding;
     if (const auto* sphere = std::get_if<Sphere>(pair.shape)) return sphere->inside || is_ahead(sphere->centre);
     if (const auto* box = std::get_if<Box>(pair.shape)) return is_ahead(scaled(add(box->lower, box->upper), 0.5));

@@ -133,6 +133,11 @@ class ModelBuilder {
     std::vector<double> shares =
         faces.empty() ? mass_shares(model_, nodes)
                       : area_shares(mesh_, parts_.surface(faces, given.group->where, "load.group"), nodes);
+    if (!std::isfinite(sum_of(shares)))
+      throw CaseError(given.group->where, "load.group",
+                      fmt::format("\"{}\", which has no {}", **given.group, faces.empty() ? "mass" : "area"),
+                      "nodes that can share a total force",
+                      "On the axis faces have none: name other faces, or give the force of each node.");
     model_.notes.push_back(fmt::format("load on \"{}\": {} nodes share the total force by their {}", **given.group,
                                        nodes.size(), faces.empty() ? "masses" : "areas"));
     model_.loads.emplace_back(NodalForce{nodes, given.vector, function(given.function, 1.0), std::move(shares)});

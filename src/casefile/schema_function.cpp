@@ -60,7 +60,7 @@ SectionSchema<CaseFunction> function_section() {
   add_kind(s);
   s.key_by(
       "time", [](auto& f) -> auto& { return f.function.time; },
-      "Times in increasing order; the same time twice makes a jump, which a static stage that ends there leaves to the next one. The first and last values hold before and after.",
+      "Times in increasing order; the same time twice makes a jump; of a load, a static stage that ends there has the value before it. The first and last values hold before and after.",
       {.unit = Dimension::time, .kinds = table_key, .need = Need::required});
   s.key_by("value", [](auto& f) -> auto& { return f.function.value; }, "One value for each time.",
            {.kinds = table_key, .need = Need::required});

@@ -182,7 +182,7 @@ struct Summary {
   std::vector<CheckSummary> checks;
   std::vector<PartSummary> parts;
   std::vector<std::string> contacts;  ///< their names, in the order of the case
-  std::vector<std::string> ties;      ///< of them those that hold together and meet nothing
+  std::vector<std::string> ties;      ///< of them the ties that do not tear, which meet nothing
   std::vector<NamedValue> crossings;  ///< by contact: how long a wave takes through a cell there (run/crossings.hpp)
   StressSummary stress;
   std::vector<ProbeSummary> probes;

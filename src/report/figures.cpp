@@ -168,6 +168,15 @@ double crossing_of(const std::optional<Summary>& summary, const std::string& pla
   return 0.0;
 }
 
+/// When anything begins to move: the last of the leading times without kinetic energy, such as those of a preload.
+double begin_of_motion(const Tables& tables) {
+  const auto* kinetic = tables.energy ? tables.energy->column("kinetic") : nullptr;
+  if (kinetic == nullptr || kinetic->empty()) return -std::numeric_limits<double>::infinity();
+  const auto moving = std::ranges::find_if(*kinetic, [](double energy) { return energy != 0.0; });
+  const auto row = std::max<std::ptrdiff_t>(0, moving - kinetic->begin() - 1);
+  return tables.energy->values.front()[static_cast<std::size_t>(row)];
+}
+
 constexpr std::string_view of_enforcement = "goes with the contact's stiffness or the step, and a cell's ringing";
 
 /// Has nothing kinetic energy? Then time is that of loads alone, and no step makes peaks.
@@ -180,11 +189,10 @@ bool is_static(const Tables& tables) {
 /// it goes with.
 std::string remark_on_peak(const CsvTable& contact, const std::string& place, const Peak& peak, double crossing,
                            const Units& units) {
-  constexpr double same = 0.01;
+  constexpr double same = 0.05;  // rounded pulses of bodies of several cells
   const std::string when = "at " + time_text(peak.time, units);
   const std::optional<double> mean = largest_mean(contact, place, crossing);
-  if (mean && *mean >= (1.0 - same) * peak.value) return when;
-  if (!mean) return fmt::format("{}, in one step; it {}", when, of_enforcement);
+  if (!mean || *mean >= (1.0 - same) * peak.value) return when;
   return fmt::format("{}; at most {} in the mean of {}, a wave's way through a cell: what is above it {}", when,
                      with_readable_unit(*mean, units.force, 4), time_text(crossing, units), of_enforcement);
 }
@@ -257,16 +265,20 @@ void add_peak_accelerations(const Tables& tables, const Units& units, std::vecto
 }
 
 /// Time with a closed row: an interval between rows of the table counts by half for each of its ends that is closed.
-void add_durations(const CsvTable& contact, const Names& ties, const Units& units, std::vector<KeyFigure>& figures) {
+void add_durations(const Tables& tables, const Units& units, std::vector<KeyFigure>& figures) {
+  const CsvTable& contact = *tables.contact;
+  const double begin = is_static(tables) ? -std::numeric_limits<double>::infinity() : begin_of_motion(tables);
   std::vector<Weighed> all;
   const std::vector<double>& time = contact.values.front();
-  for (const std::string& place : contacts_with(contact, "closed", ties)) {
+  for (const std::string& place : contacts_with(contact, "closed", tables.ties)) {
     const std::vector<double>& closed = *contact.column(place + ".closed");
     double sum = 0.0, first = std::numeric_limits<double>::quiet_NaN();
     int touches = 0;
     for (std::size_t row = 0; row < closed.size(); ++row) {
-      const double before = row > 0 ? closed[row - 1] : 0.0;
-      if (row > 0)
+      if (time[row] < begin) continue;
+      const bool is_first = row == 0 || time[row - 1] < begin;
+      const double before = is_first ? 0.0 : closed[row - 1];
+      if (!is_first)
         sum += 0.5 * (time[row] - time[row - 1]) * ((before > 0.0 ? 1.0 : 0.0) + (closed[row] > 0.0 ? 1 : 0));
       if (before > 0.0 || !(closed[row] > 0.0)) continue;
       if (touches++ == 0) first = time[row];
@@ -284,12 +296,18 @@ void add_durations(const CsvTable& contact, const Names& ties, const Units& unit
   keep_largest(all, "Duration of contact", "never closed", figures);
 }
 
-/// Of all touches until the end; nothing where nothing was touched.
-void add_impulses(const CsvTable& contact, const Names& ties, const Units& units, std::vector<KeyFigure>& figures) {
+/// Of all touches, from when anything moves until the end; nothing where nothing was touched.
+void add_impulses(const Tables& tables, const Units& units, std::vector<KeyFigure>& figures) {
+  const CsvTable& contact = *tables.contact;
+  const std::vector<double>& time = contact.values.front();
+  const auto begun = std::ranges::upper_bound(time, begin_of_motion(tables));
+  const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, begun - time.begin() - 1));
   const std::string unit = unit_of(units, Dimension::impulse);
   std::vector<Weighed> all;
-  for (const std::string& place : contacts_with(contact, "impulse", ties)) {
-    const double impulse = length(vector_at(contact, place, "impulse", contact.rows() - 1));
+  for (const std::string& place : contacts_with(contact, "impulse", tables.ties)) {
+    const Vec3 begin = vector_at(contact, place, "impulse", first),
+               end = vector_at(contact, place, "impulse", contact.rows() - 1);
+    const double impulse = length({end[0] - begin[0], end[1] - begin[1], end[2] - begin[2]});
     all.push_back({{"Impulse, " + place, with_readable_unit(impulse, unit, 4), "of the contact force until the end",
                     impulse, unit},
                    impulse,
@@ -557,8 +575,8 @@ std::optional<double> time_of_largest_force(const std::optional<CsvTable>& conta
 std::vector<KeyFigure> key_figures(const Tables& tables, const std::optional<Summary>& summary, const Units& units) {
   std::vector<KeyFigure> figures;
   const bool has_contact = tables.contact && tables.contact->rows() > 0;
-  if (has_contact && !is_static(tables)) add_impulses(*tables.contact, tables.ties, units, figures);
-  if (has_contact) add_durations(*tables.contact, tables.ties, units, figures);
+  if (has_contact && !is_static(tables)) add_impulses(tables, units, figures);
+  if (has_contact) add_durations(tables, units, figures);
   add_speeds(tables, summary, units, figures);
   if (has_contact) add_peak_forces(tables, summary, units, figures);
   add_peak_accelerations(tables, units, figures);

@@ -51,7 +51,7 @@ std::string read_case(const fs::path& folder, std::vector<std::string>& notes) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The contacts of kind tie of a resolved case, as far as it is one.
+/// The ties of a resolved case that do not tear, as far as it is one.
 std::vector<std::string> ties_of_case(const std::string& text, const std::string& folder) {
   std::vector<std::string> ties;
   try {
@@ -64,7 +64,8 @@ std::vector<std::string> ties_of_case(const std::string& text, const std::string
       return found == nullptr ? std::string() : *found;
     };
     for (std::size_t i = 0; list != nullptr && i < list->size(); ++i)
-      if (text_of((*list)[i], "kind") == "tie") ties.push_back(text_of((*list)[i], "name"));
+      if (text_of((*list)[i], "kind") == "tie" && find((*list)[i], "normal_strength") == nullptr)
+        ties.push_back(text_of((*list)[i], "name"));
   } catch (const CaseError&) {
     return {};  // cut short
   }

@@ -143,15 +143,16 @@ ExitCode conduct(Run& run, ShownProgress& progress, const RunOptions& options, c
     if (on_any_rank(stop.load()) && run.march().steps() > 0 && !run.is_over()) run.interrupt();
   }
   progress.finish();
-  if (!quiet) {
+  if (!quiet)
     for (const std::string& line : run.march().log()) say("{}\n", line);
-    say_lines("warning", run.watched().watches.rotation.warnings());
-    say_lines("warning", run.watched().watches.folds.warnings());
-  }
+  const std::size_t said = quiet ? 0 : run.watched().warnings.size();  // before the first step
   const Summary summary = run.finish();
   const bool is_good = summary.outcome == Outcome::good && summary.doubts.empty();
-  if (quiet && !is_good) say_lines("warning", summary.warnings);
-  if (!quiet || !is_good) print_verdict(summary, options.folder);
+  if (!quiet || !is_good) {
+    say_lines("warning",
+              std::vector(summary.warnings.begin() + static_cast<std::ptrdiff_t>(said), summary.warnings.end()));
+    print_verdict(summary, options.folder);
+  }
   if (summary.outcome == Outcome::stopped) say("carom resume {} goes on from there\n", options.folder);
   return exit_code(summary.outcome);
 }

@@ -107,7 +107,8 @@ Summary summary_of(const Simulation& s) {
   summary.mesh.checksum = fmt::format("{:016x}", mesh_digest(s.mesh()));
   for (const CaseContact& contact : s.given().contacts) {
     summary.contacts.push_back(*contact.name);
-    if (std::holds_alternative<CaseTie>(contact.of)) summary.ties.push_back(*contact.name);
+    if (const auto* tie = std::get_if<CaseTie>(&contact.of); tie != nullptr && !tie->tears())
+      summary.ties.push_back(*contact.name);
   }
   summary.crossings = crossing_times(s);
   for (const std::string& group : s.mesh().group_names()) {

@@ -75,7 +75,6 @@ class Actions {
       amplitude_ = &found->second;
     }
     const std::size_t step = step_at(i);
-    is_before_steps_ = t_.steps.empty() || i < t_.steps.front().begin;
     const std::string* op = s.keyword->parameter("OP");
     if (op != nullptr && upper_case(*op) == "NEW") renewed_.insert({s.keyword->name, step});
     for (DeckCursor at(*s.keyword); at.next_line();) t_.errors.attempt([&] { (this->*line)(at, s, step); });
@@ -105,9 +104,13 @@ class Actions {
     }
     if (found->body != nullptr && value != 0.0) found->where = wanted.where;
     if (!found->actions.empty() && found->actions.back().step == step) {
-      if (wanted.keyword != "BOUNDARY" && wanted.what != "gravity")
-        at.fail(fmt::format("this load of {} a second time in its step", wanted.group.empty() ? "all" : wanted.group),
-                "each load once", "Write the sum where both act.");
+      // Of motions the last counts, as of a set and then of a node of it.
+      const double earlier = found->actions.back().value;
+      const bool may_stand = wanted.keyword == "BOUNDARY" || (wanted.what == "gravity" && value == earlier);
+      if (!may_stand)
+        at.fail(fmt::format("this load of {} a second time in its step: {:g} after {:g}",
+                            wanted.group.empty() ? "all" : wanted.group, value, earlier),
+                "each load once", "Where both act, write their sum, or give one a set of its own.");
       found->actions.pop_back();
     }
     found->actions.push_back({step, value, amplitude_, false});
@@ -134,10 +137,6 @@ class Actions {
                                 "It would be left out: nodes have no temperatures.");
     if (from < 1 || to < from || to > 6)
       at.fail(fmt::format("degrees of freedom {} to {}", from, to), "1 to 3, or 1 to 6 with those of turning");
-    const bool jumps = what == "DISPLACEMENT" && amplitude_ == nullptr && !t_.steps.empty() && !t_.steps.front().ramps;
-    if (value != 0.0 && is_before_steps_ && jumps)
-      at.fail(fmt::format("the displacement {:g} before the first step", value), "one with an AMPLITUDE",
-              "The nodes would jump there when the first step begins.");
     for (int dof = from; dof <= to; ++dof) impose(at, group, dof, what, step, value, false);
   }
 
@@ -299,6 +298,12 @@ class Actions {
     if (is_support && acting.actions.front().step > 0)
       t_.findings.refuse(*acting.source, acting.where, "a support that begins with a later step",
                          "Carom's supports hold for the whole run.");
+    if (acting.what == "displacement")
+      if (const auto jump = first_jump(points, t_.steps))
+        throw CaseError(acting.where, "*BOUNDARY",
+                        fmt::format("a displacement of {} that jumps at t = {:g}", acting.group, *jump),
+                        "one that grows, from 0 or from where the step before it ended",
+                        "Nodes cannot jump: let it grow by an AMPLITUDE, or say TYPE=VELOCITY.");
     if (acting.body != nullptr && acting.body->is_obstacle()) return move_rigid(*acting.body, acting, points);
     if (size == 0.0 && !is_support) return t_.findings.note(acting.where, "a load of 0: left out");
     std::string function;
@@ -419,7 +424,6 @@ class Actions {
   std::map<std::tuple<std::size_t, double, Vec3>, GravityCells> gravity_;
   std::map<std::string, Amplitude> amplitudes_;
   const Amplitude* amplitude_ = nullptr;
-  bool is_before_steps_ = false;          ///< the statement that is read  ///< of the keyword at hand
   const DeckKeyword* keyword_ = nullptr;  ///< at hand
   std::vector<Acting> all_;
   std::set<std::pair<std::string, std::size_t>> renewed_;

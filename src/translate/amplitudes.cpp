@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "deck/keyword_table.hpp"
 
@@ -94,14 +95,17 @@ void add_point(Points& points, double t, double value) {
     points.emplace_back(t, value);
 }
 
+/// By a share of the step, and no less than what a function of time takes for rounding.
+double just_after_start(const DeckStep& step) {
+  return step.start + std::max(1e-9 * step.period, 1e-11 * step.start);
+}
+
 /// The value at the beginning of a step. The step before ends with its own, so that a jump between two steps comes just
 /// after their common time; at the start of the run it is there from the beginning.
 void begin_step(Points& points, const DeckStep& step, double before, double value) {
-  // Of the step, and no less than what a function of time takes for rounding.
-  const double just_after = std::max(1e-9 * step.period, 1e-11 * step.start);
   if (step.start == 0.0) return add_point(points, 0.0, value);
   add_point(points, step.start, before);
-  if (value != before) add_point(points, step.start + just_after, value);
+  if (value != before) add_point(points, just_after_start(step), value);
 }
 
 void follow_amplitude(Points& points, const Action& action, const DeckStep& step, double before) {
@@ -162,6 +166,20 @@ Points history(const std::vector<Action>& actions, const std::vector<DeckStep>& 
     now = points.back().second;
   }
   return points;
+}
+
+std::optional<double> first_jump(const Points& points, const std::vector<DeckStep>& steps) {
+  double largest = 0.0;
+  for (const auto& [time, value] : points) largest = std::max(largest, std::abs(value));
+  const auto differ = [&](double a, double b) { return std::abs(a - b) > 1e-9 * largest; };  // beyond round-off
+  if (!points.empty() && points.front().first == 0.0 && differ(points.front().second, 0.0)) return 0.0;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const double before = points[i - 1].first, now = points[i].first;
+    const bool is_between_steps =
+        std::ranges::any_of(steps, [&](const DeckStep& step) { return now == just_after_start(step); });
+    if ((now == before || is_between_steps) && differ(points[i].second, points[i - 1].second)) return before;
+  }
+  return std::nullopt;
 }
 
 }  // namespace carom

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -36,5 +37,9 @@ Points history(const std::vector<Action>& actions, const std::vector<DeckStep>& 
 
 /// The value of a polygon at t; the first and last hold outside.
 double value_at(const Points& points, double t);
+
+/// When the value jumps: from 0 at the start, where a step begins with another value than that of the step before it,
+/// or within an amplitude.
+std::optional<double> first_jump(const Points& points, const std::vector<DeckStep>& steps);
 
 }  // namespace carom

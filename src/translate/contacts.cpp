@@ -105,8 +105,8 @@ void add_interaction(Translation& t, const Interaction& of, bool is_rigid, Table
                       "Rigid surfaces take tables. Contact would have the stiffness that Carom chooses from the "
                       "material and the cells.");
   else if (of.table != nullptr)
-    to.add("depths", numbers_node(of.depths, of.keyword->where))
-        .add("pressures", numbers_node(of.pressures, of.keyword->where));
+    to.add("depths", numbers_node(of.depths, of.table->where))
+        .add("pressures", numbers_node(of.pressures, of.table->where));
   if (of.friction != 0.0) to.number("friction", of.friction);
   if (of.friction != 0.0 && of.tangential_stiffness) to.number("tangential_stiffness", *of.tangential_stiffness);
 }

@@ -40,7 +40,7 @@ class Run(_carom.RunBase):
         """
         count = whole("n", n, "a number of steps")
         if count < 0:
-            raise ValueError(f"n: {count}, and a number of steps is wanted")
+            raise ValueError(f"n: {count}, and a number of steps is 0 or more")
         self._advance(np.inf, count)
 
     def until(self, time: float) -> None:

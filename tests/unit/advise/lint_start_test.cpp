@@ -57,7 +57,7 @@ TEST(LintStart, NamesTheHeldPartOfAVelocityForAll) {
 TEST(LintStart, NamesVelocitiesThatAreOverwritten) {
   const Texts found = warnings(thrown("part = \"body\"") + thrown("nodes = \"all\""));
   ASSERT_EQ(found.size(), 1U);
-  EXPECT_NE(found[0].find("the velocity of part = \"body\" is without effect, since the section of line 18"),
+  EXPECT_NE(found[0].find("the velocity of part = \"body\" is without effect, since later sections (line 18)"),
             std::string::npos)
       << found[0];
   EXPECT_EQ(warnings(slab + thrown("nodes = \"all\"") + thrown("part = \"body\"")), Texts{});

@@ -440,7 +440,7 @@ TEST(LawDepth, IsDoubtedBeyondItsEnd) {
   const std::vector<std::string> beyond = warnings("depths = [0.1]\npressures = [0.5]\n");
   ASSERT_EQ(beyond.size(), 1U);
   EXPECT_NE(beyond[0].find("contact \"floor\" was pressed to a depth of"), std::string::npos) << beyond[0];
-  EXPECT_NE(beyond[0].find("times the last of its `depths`, 0.1: beyond it the last slope was gone on with"),
+  EXPECT_NE(beyond[0].find("times the last of its `depths`, 0.1: beyond it the last slope was continued"),
             std::string::npos)
       << beyond[0];
 }

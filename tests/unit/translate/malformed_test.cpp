@@ -141,8 +141,8 @@ const std::vector<Spoiled> spoiled_decks{
      ":56: *BOUNDARY: found a turn of degree of freedom 4; expected 1, 2 or 3. Nodes do not turn, but for "
      "those that a *RIGID BODY refers to."},
     {"boundary_value_before_steps", "BASE, 1, 3", "BASE, 1, 3, 0.1",
-     ":40: *BOUNDARY: found the displacement 0.1 before the first step; expected one with an AMPLITUDE. The nodes "
-     "would jump there when the first step begins."},
+     ":40: *BOUNDARY: found a displacement of BASE that jumps at t = 0; expected one that grows, from 0 or from where the "
+     "step before it ended. Nodes cannot jump: let it grow by an AMPLITUDE, or say TYPE=VELOCITY."},
     {"boundary_fifth_field", "BASE, 1, 3", "BASE, 1, 3, 0., 7",
      ":40: *BOUNDARY: found '7' behind the others; expected nodes, first and last degree of freedom, value"},
     {"contact_third_surface", "FOOT, FLOOR", "FOOT, FLOOR, TOP",

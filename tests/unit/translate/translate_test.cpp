@@ -553,5 +553,24 @@ TEST(Translate, ThePageInTheRepositoryIsCurrent) {
   EXPECT_TRUE(committed == current) << "copy " << testing::TempDir() << "decks.md to docs/decks.md";
 }
 
+/// What a static step has ramped up may stay in the step that follows; another value there would be a jump.
+TEST(Translate, DisplacementsMayStayButNotJumpBetweenSteps) {
+  const std::string ramped = replaced(good_deck, "*STEP\n*DYNAMIC, DIRECT\n1e-6, 1e-3",
+                                      "*STEP\n*STATIC\n0.5, 1.\n*BOUNDARY\nFALLING, 1, 1, 0.1\n*END STEP\n"
+                                      "*STEP\n*DYNAMIC, DIRECT\n1e-6, 1e-3\n*BOUNDARY\nFALLING, 1, 1, 0.1");
+  EXPECT_EQ(message_of(ramped), "no error");
+  const std::string jumps =
+      message_of(replaced(ramped, "1e-3\n*BOUNDARY\nFALLING, 1, 1, 0.1", "1e-3\n*BOUNDARY\nFALLING, 1, 1, 0.2"));
+  EXPECT_NE(jumps.find("a displacement of FALLING that jumps at t = 1;"), std::string::npos) << jumps;
+  const auto by = [](const std::string& amplitude) {
+    return message_of(replaced(replaced(good_deck, "0., 0., 1e-3, 1.", amplitude), "1e-6, 1e-3\n",
+                               "1e-6, 1e-3\n*BOUNDARY, AMPLITUDE=A\nFALLING, 1, 1, 0.1\n"));
+  };
+  EXPECT_EQ(by("0., 0., 1e-9, 1."), "no error");  // steep is no jump
+  EXPECT_NE(by("0., 0., 5e-4, 0., 5e-4, 1.").find("a displacement of FALLING that jumps at t = 0.0005;"),
+            std::string::npos)
+      << by("0., 0., 5e-4, 0., 5e-4, 1.");
+}
+
 }  // namespace
 }  // namespace carom::translate_test
