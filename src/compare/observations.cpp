@@ -66,8 +66,8 @@ std::string worsening(std::vector<Point> points, Along along, const std::string&
   const Point &coarse = points[points.size() - 2], &fine = points.back();
   const char* what = along == Along::cells ? "cells" : "step";
   const char* other = along == Along::cells
-                          ? "something else than the mesh makes it (the step, which --courant lets go along with the "
-                            "mesh; the stiffness of contact; facets of a round body)"
+                          ? "something else than the mesh makes it (the step where the case fixes it, which --courant "
+                            "lets follow the cells; the stiffness of contact; facets of a round body)"
                           : "something else than the step makes it (the mesh, or waves that it cannot carry and that "
                             "shorter steps damp less)";
   const std::string last = fmt::format("from {} {:.3g} to {:.3g}", what, coarse.x, fine.x);

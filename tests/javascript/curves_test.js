@@ -20,6 +20,8 @@ test("numbers have the digits of their place, in the unit of their axis", () => 
   assert.equal(carom.four(2.5e7), "2.5 · 10⁷");
   assert.equal(carom.four(123456, 3), "123.5");
   assert.equal(carom.four(-0.5), "-0.5");
+  assert.equal(carom.clock(2.253e-4, [0, 1e-4, 2.253e-4, 3e-4], -6), "225.3");
+  assert.equal(carom.clock(1.00002, [0, 0.5, 1, 1.00002, 1.00004, 1.00006], 0), "1.00002");
 });
 
 test("what has no value has no number", () => {

@@ -89,7 +89,7 @@
     moveTo(t) {
       const { times, time_power: power, time_unit: unit } = this.data;
       this.player.showTime(t);
-      this.overlay.clock.textContent = "t = " + carom.four(times[this.player.frame], power) + " " + unit;
+      this.overlay.clock.textContent = "t = " + carom.clock(times[this.player.frame], times, power) + " " + unit;
     }
 
     // What the panel says is shown.
