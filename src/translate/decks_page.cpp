@@ -34,7 +34,7 @@ make nodes or elements, such as `*NGEN`, are refused in any case: the mesh would
 - what has to be changed whatever is accepted: wrong values, unknown names, element types that Carom does not have;
 - where all could be accepted, what would still be refused then.
 
-An element type that is not known hides nothing: its sets keep their names, and only what is made of its cells (sections, loads
+Materials, interactions and amplitudes that nothing refers to are left out with a note, whatever they are. An element type that is not known hides nothing: its sets keep their names, and only what is made of its cells (sections, loads
 and surfaces of them) is not looked at. `--accept` takes names of keywords alone; of others it says which one is near.
 
 ## Syntax

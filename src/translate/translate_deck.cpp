@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <utility>
 
 #include "casefile/read_case.hpp"
@@ -104,6 +106,99 @@ struct Attempt {
   CaseErrors errors;
 };
 
+/// A keyword that gives a name to what others refer to, and the keywords behind it that go with it, whether Carom has
+/// them or not (Abaqus keywords, "Material options" and "Interaction properties").
+struct NamedKeyword {
+  std::string name, parameter;  ///< of those that refer to it
+  std::string what;             ///< in the note
+  std::set<std::string> options;
+};
+
+const std::array<NamedKeyword, 3>& named_keywords() {
+  static const std::array<NamedKeyword, 3> all{
+      {{"MATERIAL",
+        "MATERIAL",
+        "the material {} is left out: nothing is made of it",
+        {"ELASTIC",
+         "PLASTIC",
+         "DENSITY",
+         "HYPERELASTIC",
+         "HYPERFOAM",
+         "VISCOELASTIC",
+         "EXPANSION",
+         "CONDUCTIVITY",
+         "SPECIFIC HEAT",
+         "INELASTIC HEAT FRACTION",
+         "RATE DEPENDENT",
+         "DAMPING",
+         "CREEP",
+         "POTENTIAL",
+         "DEPVAR",
+         "USER MATERIAL",
+         "USER OUTPUT VARIABLES",
+         "UNIAXIAL TEST DATA",
+         "BIAXIAL TEST DATA",
+         "PLANAR TEST DATA",
+         "VOLUMETRIC TEST DATA",
+         "DAMAGE INITIATION",
+         "DAMAGE EVOLUTION",
+         "DAMAGE STABILIZATION",
+         "CYCLIC HARDENING",
+         "CONCRETE DAMAGED PLASTICITY",
+         "CONCRETE COMPRESSION HARDENING",
+         "CONCRETE TENSION STIFFENING",
+         "CRUSHABLE FOAM",
+         "CRUSHABLE FOAM HARDENING",
+         "DRUCKER PRAGER",
+         "DRUCKER PRAGER HARDENING",
+         "MOHR COULOMB",
+         "EOS",
+         "TENSILE FAILURE",
+         "SHEAR FAILURE",
+         "NO COMPRESSION",
+         "NO TENSION",
+         "MULLINS EFFECT",
+         "PERMEABILITY",
+         "LATENT HEAT"}},
+       {"SURFACE INTERACTION",
+        "INTERACTION",
+        "the interaction {} is left out: no contact has it",
+        {"SURFACE BEHAVIOR", "FRICTION", "COHESIVE BEHAVIOR", "CONTACT DAMPING", "DAMAGE INITIATION",
+         "DAMAGE EVOLUTION", "DAMAGE STABILIZATION", "GAP CONDUCTANCE", "GAP HEAT GENERATION", "GAP RADIATION"}},
+       {"AMPLITUDE", "AMPLITUDE", "the amplitude {} is left out: nothing follows it", {}}}};
+  return all;
+}
+
+/// The names in upper case that a parameter of other keywords says; interactions also stand in data lines.
+std::set<std::string> names_referred_to(const Statements& statements, const NamedKeyword& of) {
+  std::set<std::string> names;
+  for (const Statement& s : statements.list) {
+    if (const std::string* name = s.keyword->parameter(of.parameter)) names.insert(upper_case(*name));
+    if (s.keyword->name != "CONTACT PROPERTY ASSIGNMENT") continue;
+    for (DeckCursor at(*s.keyword); at.next_line();)
+      while (!at.at_end()) names.insert(upper_case(at.field()));
+  }
+  return names;
+}
+
+/// Takes away what nothing refers to, as CAE writes all that its model has: it may be what Carom has not.
+void take_unused(Statements& statements, Findings& findings) {
+  for (const NamedKeyword& of : named_keywords()) {
+    const std::set<std::string> used = names_referred_to(statements, of);
+    bool is_within = false;
+    std::erase_if(statements.list, [&](const Statement& s) {
+      const DeckKeyword& keyword = *s.keyword;
+      const std::string* name = keyword.name == of.name ? keyword.parameter("NAME") : nullptr;
+      if (keyword.name == of.name)
+        is_within = name != nullptr && !used.contains(upper_case(*name));
+      else
+        is_within = is_within && of.options.contains(keyword.name);
+      if (is_within && name != nullptr) findings.note(keyword.where, fmt::format(fmt::runtime(of.what), *name));
+      return is_within;
+    });
+  }
+}
+
 /// What needs the mesh and the steps.
 void translate_on_mesh(Translation& t) {
   for (void (*const translate)(Translation&) :
@@ -140,8 +235,9 @@ void ignore_unused(Translation& t, TableMaker& of_mesh) {
 Attempt attempt(std::string bytes, const std::string& path, const std::vector<std::string>& accepted,
                 const IncludeReader& include) {
   const Deck deck = read_deck(std::move(bytes), path, include);
-  const Statements statements = statements_of(deck);
+  Statements statements = statements_of(deck);
   Attempt made{{}, Findings(accepted), {}};
+  take_unused(statements, made.findings);
   const DeckMesh mesh = deck_mesh(statements, path, made.errors);
   Translation t{statements, mesh, made.findings, made.errors, {}, {}, false, {}};
   survey(t);

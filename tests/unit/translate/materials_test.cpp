@@ -248,5 +248,22 @@ TEST(Translate, NeoHookeOnlyWhereItsPotentialIsAccepted) {
   EXPECT_NEAR(*made.materials[0].value("nu"), 28.0 / 62.0, 1e-15);
 }
 
+/// CAE writes all that its model has; what nothing refers to needs no density, and may be what Carom has not.
+TEST(TranslateMaterials, ThatNothingIsMadeOfAreLeftOut) {
+  const std::string unused =
+      replaced(good_deck, "*MATERIAL",
+               "*MATERIAL, NAME=RUBBER\n*HYPERELASTIC, MOONEY-RIVLIN\n1., 0.1, 0.\n*EXPANSION\n1e-5,\n*MATERIAL");
+  EXPECT_TRUE(has_note(translated(unused), "the material RUBBER is left out: nothing is made of it"));
+  EXPECT_EQ(case_from(unused).materials.size(), 1U);
+  EXPECT_NE(message_of(replaced(unused, "MATERIAL=STEEL", "MATERIAL=Rubber")).find("MOONEY-RIVLIN"), std::string::npos);
+  const std::string others =
+      replaced(unused, "*BOUNDARY",
+               "*AMPLITUDE, NAME=WAVE, DEFINITION=PERIODIC\n1, 5., 0., 0.\n*SURFACE INTERACTION, "
+               "NAME=GLUED\n*FRICTION, ROUGH\n*COHESIVE BEHAVIOR\n*BOUNDARY");
+  EXPECT_EQ(message_of(others), "no error");
+  EXPECT_TRUE(has_note(translated(others), "the interaction GLUED is left out: no contact has it"));
+  EXPECT_TRUE(has_note(translated(others), "the amplitude WAVE is left out: nothing follows it"));
+}
+
 }  // namespace
 }  // namespace carom::translate_materials_test
