@@ -82,7 +82,8 @@ std::map<std::string, Interaction> interactions_of(Translation& t) {
       last = &place->second;
       if (!is_new)
         t.errors.attempt([&] {
-          keyword.fail("the interaction " + keyword.required("NAME") + " a second time", "one *SURFACE INTERACTION of a name");
+          keyword.fail("the interaction " + keyword.required("NAME") + " a second time",
+                       "one *SURFACE INTERACTION of a name");
         });
       last->keyword = &keyword;
     }
