@@ -69,6 +69,7 @@ class Extent {
   Vec3 low_{far, far, far}, high_{-far, -far, -far};
 };
 
+/// Looks at the [[initial]] sections of a case: at velocities that something else overwrites, and at falls.
 class StartLint {
  public:
   explicit StartLint(const Simulation& s)
