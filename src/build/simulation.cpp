@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/page_memory.hpp"
 #include "build/build_mesh.hpp"
 #include "build/build_model.hpp"
 #include "build/eroding_parts.hpp"
@@ -114,15 +115,17 @@ Simulation::Simulation(Case given)
   }
   refuse_surfaces_from_behind();
   settle_initial_penetrations();
-  const State first = initial_state();
-  refuse_torn_ties(case_, model_, contact_, first.q, first.v);
+  {
+    const State first = initial_state();  // for a while: it is large
+    refuse_torn_ties(case_, model_, contact_, first.q, first.v);
+  }
   const StageContext context{case_, *mesh_, model_, solid_, contact_};
   stages_.push_back(std::make_unique<Stage>(context, case_.scheme, case_.time, 0.0, later_velocities(0)));
   for (const CaseStage& stage : case_.stages) {
     stages_.push_back(std::make_unique<Stage>(context, stage.scheme, stage.time, stages_.back()->end(),
                                               later_velocities(stages_.size())));
   }
-  refuse_velocities(first);
+  refuse_velocities(initial_state());
   refuse_erosion(case_, model_, stages_);
   for (const auto& stage : stages_) {
     const std::vector<std::string>& lines = stage->mass_notes().lines;
@@ -247,8 +250,7 @@ std::shared_ptr<const ConstraintRows> Simulation::initial_rows() const {
 
 State Simulation::initial_state() const {
   State state;
-  state.q.assign(solid_.dof_count(), 0.0);
-  state.v = state.a = state.q;
+  for (std::vector<double>* values : {&state.q, &state.v, &state.a}) *values = unwritten_zeros(solid_.dof_count());
   if (taken_) state.points = taken_->points;
   for (const InitialState& initial : model_.initial) {
     if (initial.stage > 0) continue;

@@ -1,6 +1,7 @@
 #include "enforcement/explicit_contact.hpp"
 
 #include <stdexcept>
+#include <utility>
 
 #include "system/bonded_mass.hpp"
 
@@ -37,9 +38,11 @@ std::string ExplicitContact::evaluate(const System& system, const State& begin, 
   return respond({h, h, begin.q, end.q, v, end.a, past_of(begin)}, end.forces);
 }
 
-void ExplicitContact::start(const System& system, double dt, double weight, State& state) {
-  const std::vector<double> points = state.points;
-  evaluate_bodies(system, start_step(dt, points, state), state);
+void ExplicitContact::start(const System& system, double dt, double weight, State& state, const Holding* shared) {
+  const std::vector<double> points = std::exchange(state.points, {});
+  PointStep step = start_step(dt, points, state);
+  step.nodes = shared;
+  evaluate_bodies(system, step, state);
   const std::string failure = respond({dt, weight, state.q, state.q, state.v, state.a, past_of(state)}, state.forces);
   if (!failure.empty()) throw std::runtime_error("at the start: " + failure);
 }

@@ -31,7 +31,7 @@ class ExplicitContact {
   /// returns.
   std::string evaluate(const System& system, const State& begin, double h, std::span<const double> v, State& end);
   /// Fills all forces of a state that a run begins with. Throws std::runtime_error when contact finds none.
-  void start(const System& system, double dt, double weight, State& state);
+  void start(const System& system, double dt, double weight, State& state, const Holding* shared = nullptr);
   /// Says where the work of the contact forces over the step went, as ContactPort::work does; the caller fills `total`.
   virtual ContactWork work(const State& begin, const State& end) const = 0;
   /// True where it asks for nothing but nodes of contact, which all ranks hold (Solid::shared_nodes).

@@ -43,22 +43,21 @@ double random_entry(std::uint64_t i) {
 }
 
 std::vector<double> random_vector(const Entries& entries) {
-  std::vector<double> v(entries.count());
+  std::vector<double> v = entries.zeros();
   entries.each([&](std::size_t i) { v[i] = random_entry(i); });
   return v;
 }
 
-/// The three-term recurrence in the inner product of M: v_k are M-orthonormal, p_k = M v_k.
+/// The three-term recurrence in the inner product of M: v_k are M-orthonormal.
 class Lanczos {
  public:
   Lanczos(const Pencil& pencil, const Entries& entries, std::vector<double> start)
       : pencil_(pencil),
         entries_(entries),
         v_(std::move(start)),
-        p_(v_.size()),
-        v_old_(v_.size(), 0.0),
-        w_(v_.size()),
-        Kv_(v_.size()) {
+        v_old_(entries.zeros()),
+        w_(entries.zeros()),
+        Kv_(entries.zeros()) {
     beta_ = normalise(v_);
   }
 
@@ -86,23 +85,24 @@ class Lanczos {
   }
 
  private:
-  /// v /= |v|_M; returns |v|_M.
+  /// v /= |v|_M; returns |v|_M. Kv is over.
   double normalise(std::vector<double>& v) {
-    pencil_.M(v, p_);
-    const double length = std::sqrt(entries_.dot(v, p_));
+    std::vector<double>& Mv = Kv_;
+    pencil_.M(v, Mv);
+    const double length = std::sqrt(entries_.dot(v, Mv));
     if (length > 0.0) entries_.each([&](std::size_t i) { v[i] /= length; });
     return length;
   }
 
   const Pencil& pencil_;
   const Entries& entries_;
-  std::vector<double> v_, p_, v_old_, w_, Kv_, diagonal_, off_diagonal_;
+  std::vector<double> v_, v_old_, w_, Kv_, diagonal_, off_diagonal_;
   double beta_ = 0.0;
 };
 
 /// A vector without components on what M_inverse leaves out.
 std::vector<double> start_vector(const Pencil& pencil, const Entries& entries) {
-  std::vector<double> v(entries.count());
+  std::vector<double> v = entries.zeros();
   pencil.M_inverse(random_vector(entries), v);
   return v;
 }

@@ -7,6 +7,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/page_memory.hpp"
 #include "march/body_scales.hpp"
 #include "march/failure_text.hpp"
 #include "march/kept_state.hpp"
@@ -16,7 +17,7 @@ namespace carom {
 
 March::March(const Simulation& simulation)
     : s_(simulation), state_(simulation.initial_state()), shared_(s_.solid(), nullptr, state_), end_(simulation.end()) {
-  std::fill(state_.v.begin(), state_.v.end(), 0.0);  // they begin with their stage
+  release_pages(state_.v);  // velocities begin with their stage
   if (!s_.model().erosion.empty()) erosions_.emplace(s_);
 }
 
@@ -103,18 +104,19 @@ void March::begin_stage(std::size_t number) {
     for (std::string& line : stage_->notes()) log_.push_back(std::move(line));
   stage_ = std::move(next);
   shared_ = {s_.solid(), scheme().shared_nodes(), state_};
-  const std::vector<double> v_before = state_.v;
+  const std::vector<double> v_before = books_ ? state_.v : std::vector<double>();
   const bool gives_velocities = s_.begin_velocities(number, state_);
   stage_->begin(state_, count_.steps());
   if (!books_) {
     books_.emplace(s_, stage(), state_, rest);
-    return;
+    return shared_.release();
   }
   const bool is_given = was_static || gives_velocities;
   const double jump =
       books_->begin_stage(stage(), state_, is_given ? given_motion(stage(), state_, v_before) : GivenMotion{});
   log_.push_back(fmt::format("stage: at t = {:.6g} from step {} on: {}; stored energy jumps by {:.3g}", state_.t,
                              count_.steps(), stage().name(), jump));
+  shared_.release();
 }
 
 std::vector<std::string> March::log() const {

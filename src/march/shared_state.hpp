@@ -21,12 +21,18 @@ class SharedState {
 
   /// Is there anything that a rank does not know?
   bool is_partial() const { return nodes_ != nullptr && !nodes_->is_whole(); }
-  /// All of it.
+  /// All of it, on all ranks.
   void complete() const { carom::complete(*solid_, nodes_, *state_); }
-  /// Displacements, velocities and accelerations of some nodes.
+  /// Displacements, velocities and accelerations of some nodes, on all ranks.
   void complete(std::span<const Index> nodes) const;
   /// Displacements alone.
   void complete_displacements(std::span<const Index> nodes) const;
+  /// All of it, on the first rank alone, which writes the results.
+  void collect() const;
+  /// Velocities alone.
+  void collect_velocities() const;
+  /// Gives the memory back of what this rank does not hold.
+  void release() const;
 
  private:
   const Solid* solid_;

@@ -25,45 +25,51 @@ double bin(double length, double step) {
   return std::fmin(std::fmax(std::round(length / step), 0.0), kMost);  // fmax turns not-a-number into 0
 }
 
-/// Nodes of the cells that are not pieces of a boundary, and for each node the cells it belongs to (compressed rows).
+/// The cells that are not pieces of a boundary, and for each node those it belongs to (compressed rows).
 class Connections {
  public:
-  explicit Connections(const Mesh& mesh) : node_begin_(mesh.node_count() + 1, 0) {
+  explicit Connections(const Mesh& mesh) : mesh_(mesh), node_begin_(mesh.node_count() + 1, 0) {
     const std::vector<std::uint8_t> dimensions = node_dimensions(mesh);
-    for (const CellBlock& block : mesh.blocks)
-      if (dimension(block.type) > 0) append(block, dimensions);
-    for (const Index n : cell_nodes_) ++node_begin_[at(n) + 1];
+    std::vector<bool> counts;
+    for (const CellBlock& block : mesh.blocks) {
+      block_begin_.push_back(counts.size());
+      for (Index cell = 0; at(cell) < block.size(); ++cell)
+        counts.push_back(dimension(block.type) > 0 && !on_boundary(block.nodes(cell), block.type, dimensions));
+    }
+    const auto each = [&](const auto& body) {
+      for (std::size_t cell = 0; cell < counts.size(); ++cell)
+        if (counts[cell])
+          for (const Index n : nodes(static_cast<Index>(cell))) body(n, cell);
+    };
+    each([&](Index n, std::size_t) { ++node_begin_[at(n) + 1]; });
     std::partial_sum(node_begin_.begin(), node_begin_.end(), node_begin_.begin());
-    node_cells_.resize(cell_nodes_.size());
+    node_cells_.resize(node_begin_.back());
     std::vector<std::size_t> next(node_begin_.begin(), node_begin_.end() - 1);
-    for (std::size_t cell = 0; cell < cell_count(); ++cell)
-      for (const Index n : nodes(static_cast<Index>(cell))) node_cells_[next[at(n)]++] = static_cast<Index>(cell);
+    each([&](Index n, std::size_t cell) { node_cells_[next[at(n)]++] = static_cast<Index>(cell); });
+    cell_count_ = counts.size();
   }
 
-  CellType type(Index cell) const { return types_[at(cell)]; }
-  std::size_t cell_count() const { return cell_begin_.size() - 1; }
+  CellType type(Index cell) const { return mesh_.blocks[block_of(cell)].type; }
+  std::size_t cell_count() const { return cell_count_; }
   std::span<const Index> nodes(Index cell) const {
-    return {cell_nodes_.data() + cell_begin_[at(cell)], cell_nodes_.data() + cell_begin_[at(cell) + 1]};
+    const std::size_t b = block_of(cell);
+    return mesh_.blocks[b].nodes(cell - static_cast<Index>(block_begin_[b]));
   }
   std::span<const Index> cells(Index node) const {
     return {node_cells_.data() + node_begin_[at(node)], node_cells_.data() + node_begin_[at(node) + 1]};
   }
 
  private:
-  void append(const CellBlock& block, std::span<const std::uint8_t> dimensions) {
-    const auto n = static_cast<std::size_t>(node_count(block.type));
-    for (std::size_t cell = 0; cell < block.size(); ++cell) {
-      const std::span<const Index> nodes(&block.connectivity[cell * n], n);
-      if (on_boundary(nodes, block.type, dimensions)) continue;
-      cell_nodes_.insert(cell_nodes_.end(), nodes.begin(), nodes.end());
-      cell_begin_.push_back(cell_begin_.back() + n);
-      types_.push_back(block.type);
-    }
+  std::size_t block_of(Index cell) const {
+    std::size_t b = 0;  // there are some types of cells at most
+    while (b + 1 < block_begin_.size() && block_begin_[b + 1] <= at(cell)) ++b;
+    return b;
   }
 
-  std::vector<std::size_t> cell_begin_{0}, node_begin_;
-  std::vector<Index> cell_nodes_, node_cells_;
-  std::vector<CellType> types_;
+  const Mesh& mesh_;
+  std::size_t cell_count_ = 0;
+  std::vector<std::size_t> block_begin_, node_begin_;
+  std::vector<Index> node_cells_;
 };
 
 struct Mean {
@@ -111,14 +117,15 @@ class LevelOrder {
         placed_(mesh.node_count(), 0),
         seen_cell_(connections_.cell_count(), 0),
         expanded_(connections_.cell_count(), 0),
-        place_(mesh.node_count(), -1),
-        by_edges_(mesh.node_count()),
-        by_cells_(mesh.node_count()) {
+        place_(mesh.node_count(), -1) {
     order_.reserve(mesh.node_count());
   }
 
-  /// order[new index] = old index
-  const std::vector<Index>& compute() {
+  struct Result {
+    std::vector<Index> order;           ///< order[new index] = old index
+    std::vector<std::size_t> body_end;  ///< for each body the new index behind its last
+  };
+  Result compute() && {
     for (std::size_t n = 0; n < mesh_.node_count(); ++n) {
       if (placed_[n] != 0) continue;
       std::vector<Index> level = start_level(body_of(static_cast<Index>(n)));
@@ -128,10 +135,8 @@ class LevelOrder {
       }
       body_end_.push_back(order_.size());
     }
-    return order_;
+    return {std::move(order_), std::move(body_end_)};
   }
-  /// For each body the new index behind its last.
-  const std::vector<std::size_t>& body_end() const { return body_end_; }
 
  private:
   std::vector<Index> body_of(Index seed) {
@@ -167,13 +172,17 @@ class LevelOrder {
   std::vector<Index> next_level(const std::vector<Index>& level) {
     for (std::size_t i = 0; i < level.size(); ++i) place_[at(level[i])] = static_cast<Index>(i);
     std::vector<Index> next;
+    by_edges_.clear();
+    by_cells_.clear();
     for (const Index node : level)
       for (const Index cell : connections_.cells(node))
         if (std::exchange(expanded_[at(cell)], char{1}) == 0) expand(cell, next);
     std::vector<std::pair<double, Index>> keys;
     keys.reserve(next.size());
-    for (const Index n : next)
-      keys.emplace_back(by_edges_[at(n)].count > 0 ? by_edges_[at(n)].value() : by_cells_[at(n)].value(), n);
+    for (std::size_t i = 0; i < next.size(); ++i) {
+      keys.emplace_back(by_edges_[i].count > 0 ? by_edges_[i].value() : by_cells_[i].value(), next[i]);
+      place_[at(next[i])] = -1;
+    }
     std::sort(keys.begin(), keys.end());
     for (std::size_t i = 0; i < next.size(); ++i) next[i] = keys[i].second;
     for (const Index n : level) place_[at(n)] = -1;
@@ -188,20 +197,27 @@ class LevelOrder {
       if (place_[at(n)] >= 0) level.add(place_[at(n)]);
     for (const Index n : nodes) {
       if (place_[at(n)] >= 0) continue;
-      if (std::exchange(placed_[at(n)], char{1}) == 0) next.push_back(n);
-      by_cells_[at(n)].add(level.value());
+      if (std::exchange(placed_[at(n)], char{1}) == 0) {
+        place_[at(n)] = -2 - static_cast<Index>(next.size());
+        next.push_back(n);
+        by_edges_.emplace_back();
+        by_cells_.emplace_back();
+      }
+      by_cells_[in_next(n)].add(level.value());
     }
     for (const CornerFrame& frame : corner_frames(connections_.type(cell)))
       for (const LocalNode end : {frame.a, frame.b, frame.c})
         if (place_[at(nodes[frame.corner])] < 0 && place_[at(nodes[end])] >= 0)
-          by_edges_[at(nodes[frame.corner])].add(place_[at(nodes[end])]);
+          by_edges_[in_next(nodes[frame.corner])].add(place_[at(nodes[end])]);
   }
+  /// The place in the next level of a node that is in it.
+  std::size_t in_next(Index node) const { return at(-2 - place_[at(node)]); }
 
   const Mesh& mesh_;
   Connections connections_;
   std::vector<char> seen_node_, placed_, seen_cell_, expanded_;
-  std::vector<Index> place_;               ///< in the current level, or -1
-  std::vector<Mean> by_edges_, by_cells_;  ///< of the places of the neighbours one level before
+  std::vector<Index> place_;               ///< in the current level; -2 - place in the next one; or -1
+  std::vector<Mean> by_edges_, by_cells_;  ///< by place in the next level, of the places of the neighbours in this one
   std::vector<Index> order_;
   std::vector<std::size_t> body_end_;
 };
@@ -427,9 +443,9 @@ std::vector<Index> curve_order(const Mesh& mesh, std::span<const std::size_t> bo
 
 Mesh renumbered(Mesh mesh) {
   if (!is_local(mesh)) reorder(grid_order(mesh), mesh);
-  LevelOrder levels(mesh);
-  reorder(levels.compute(), mesh);
-  if (mesh.node_count() > small_body) reorder(curve_order(mesh, levels.body_end()), mesh);
+  const LevelOrder::Result levels = LevelOrder(mesh).compute();
+  reorder(levels.order, mesh);
+  if (mesh.node_count() > small_body) reorder(curve_order(mesh, levels.body_end), mesh);
   return mesh;
 }
 

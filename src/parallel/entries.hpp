@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include "parallel/holding.hpp"
 #include "parallel/threads.hpp"
@@ -40,6 +41,15 @@ class Entries {
   /// Holding::spoil.
   void spoil(std::span<double> values) const {
     if (items_ != nullptr) items_->spoil(values);
+  }
+  /// As many zeros as there are entries; memory is taken for those that this rank holds alone.
+  std::vector<double> zeros() const {
+    std::vector<double> values;
+    if (items_ != nullptr)
+      items_->resize(values);
+    else
+      values.resize(count_);
+    return values;
   }
 
  private:

@@ -5,6 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "base/page_memory.hpp"
+
 namespace carom {
 
 Holding::Holding(std::size_t items)
@@ -25,6 +27,7 @@ Holding::Holding(std::size_t items, std::vector<std::vector<std::uint8_t>> held)
   added_ = blocks_of(own);
   for (const EntryRange& among : {EntryRange{0, added_.begin}, EntryRange{added_.end, items}})
     for (const EntryRange& range : ranges_of(held[own], among)) beside_.add(range);
+  held_ = ranges_of(held[own], {0, items});
   beside_.close();
   give_.resize(count);
   take_.resize(count);
@@ -101,13 +104,18 @@ void Holding::update(std::span<double> values) const {
   }
 }
 
-void Holding::complete(std::span<double> values) const {
-  if (is_whole_) return;
+Exchange Holding::of_owners() const {
   std::vector<std::vector<EntryRange>> owned;
-  for (std::size_t r = 0; r < ranks().count(); ++r) {
-    owned.push_back({share_of(r, ranks().count(), items_)});
-  }
-  Exchange(std::move(owned)).gather(values, 3);
+  for (std::size_t r = 0; r < ranks().count(); ++r) owned.push_back({share_of(r, ranks().count(), items_)});
+  return Exchange(std::move(owned));
+}
+
+void Holding::complete(std::span<double> values) const {
+  if (!is_whole_) of_owners().gather(values, 3);
+}
+
+void Holding::collect(std::span<double> values) const {
+  if (!is_whole_) of_owners().collect(values, 3);
 }
 
 void Holding::complete(std::span<double> values, std::span<const Index> items) const {
@@ -137,16 +145,22 @@ void Holding::gather_sums(std::span<double> of_blocks, std::size_t each) const {
 
 void Holding::spoil([[maybe_unused]] std::span<double> values) const {
 #ifndef NDEBUG
-  if (is_whole_) return;
-  std::vector<std::uint8_t> is_held(items_, 0);
-  each_range([&](std::size_t begin, std::size_t end) {
-    std::fill(is_held.begin() + static_cast<std::ptrdiff_t>(begin), is_held.begin() + static_cast<std::ptrdiff_t>(end),
-              std::uint8_t{1});
+  each_gap(held_, items_, [&](std::size_t begin, std::size_t end) {
+    std::ranges::fill(values.subspan(3 * begin, 3 * (end - begin)), std::numeric_limits<double>::quiet_NaN());
   });
-  for (std::size_t i = 0; i < items_; ++i)
-    if (is_held[i] == 0)
-      std::fill_n(values.begin() + static_cast<std::ptrdiff_t>(3 * i), 3, std::numeric_limits<double>::quiet_NaN());
 #endif
+}
+
+void Holding::resize(std::vector<double>& values) const {
+  if (values.size() == 3 * items_) return;
+  values = std::vector<double>(3 * items_);
+  release(values);
+}
+
+void Holding::release(std::span<double> values) const {
+  each_gap(held_, items_, [&](std::size_t begin, std::size_t end) {
+    release_pages(values.subspan(3 * begin, 3 * (end - begin)));
+  });
 }
 
 }  // namespace carom

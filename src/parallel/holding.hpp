@@ -53,10 +53,16 @@ class Holding {
   void update(std::span<double> values) const;
   /// The owners give all of their values to all. All ranks call it.
   void complete(std::span<double> values) const;
+  /// The owners give all of their values to the first rank. All ranks call it.
+  void collect(std::span<double> values) const;
   /// The owners of some items give theirs to all. All ranks call it for the same items.
   void complete(std::span<double> values, std::span<const Index> items) const;
   /// In builds with assertions, makes what this rank does not hold no numbers, so that tests see who reads it.
   void spoil(std::span<double> values) const;
+  /// Gives a vector its size, if it has another: new values are 0, and take memory where this rank holds the item alone.
+  void resize(std::vector<double>& values) const;
+  /// Makes what this rank does not hold 0, and gives its memory back.
+  void release(std::span<double> values) const;
 
  private:
   /// Ranges of items in groups of some thousand items.
@@ -69,6 +75,8 @@ class Holding {
   };
   static std::vector<EntryRange> ranges_of(std::span<const std::uint8_t> held, EntryRange among);
   EntryRange blocks_of(std::size_t rank) const;
+  /// Of the values that the ranks own.
+  Exchange of_owners() const;
   void gather_sums(std::span<double> of_blocks, std::size_t each) const;
 
   std::size_t items_;
@@ -76,6 +84,7 @@ class Holding {
   std::vector<EntryRange> by_all_;
   EntryRange added_;                                  ///< what this rank adds up
   Pieces beside_;                                     ///< what else it holds
+  std::vector<EntryRange> held_;                      ///< all that it holds, in their order
   std::vector<std::vector<EntryRange>> give_, take_;  ///< by the other rank
 };
 

@@ -224,4 +224,28 @@ void Exchange::gather(std::span<double> values, std::size_t width) const {
   }
 }
 
+void Exchange::collect(std::span<double> values, std::size_t width) const {
+  const std::size_t own_rank = ranks().own();
+  const auto at = [&](std::size_t value) { return values.begin() + static_cast<std::ptrdiff_t>(value); };
+  thread_local std::vector<double> piece;
+  for (std::size_t r = 1; r < of_ranks_.size(); ++r) {
+    if (own_rank != 0 && own_rank != r) continue;
+    for (RangesInPieces left(of_ranks_[r]); left.left() > 0;) {
+      if (own_rank == 0) {
+        ranks().receive(r, piece);
+        auto next = piece.cbegin();
+        left.next(width, [&](std::size_t begin, std::size_t end) {
+          std::copy_n(next, end - begin, at(begin));
+          next += static_cast<std::ptrdiff_t>(end - begin);
+        });
+      } else {
+        piece.clear();
+        left.next(width, [&](std::size_t begin, std::size_t end) { piece.insert(piece.end(), at(begin), at(end)); });
+        ranks().send(0, piece);
+        ranks().settle();
+      }
+    }
+  }
+}
+
 }  // namespace carom

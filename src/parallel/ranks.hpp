@@ -70,6 +70,17 @@ struct EntryRange {
   bool has(std::size_t entry) const { return entry >= begin && entry < end; }
 };
 
+/// Calls body(begin, end) for the entries of [0, n) that are in none of the ranges, which stand in their order.
+template <class Body>
+void each_gap(std::span<const EntryRange> ranges, std::size_t n, const Body& body) {
+  std::size_t next = 0;
+  for (const EntryRange& range : ranges) {
+    if (next < range.begin) body(next, range.begin);
+    next = next < range.end ? range.end : next;
+  }
+  if (next < n) body(next, n);
+}
+
 /// Entries of ranges that follow each other, some at a time: messages have a largest size, so that their memory is
 /// small beside that of a model.
 class RangesInPieces {
@@ -98,7 +109,7 @@ std::size_t sharer_of(std::size_t entry, std::size_t ranks, std::size_t n);
 /// All ranks call it.
 std::pair<double, std::size_t> largest_on_ranks(double value, std::size_t position);
 
-/// Vectors of which each rank knows entries of its own: gather() gives them to all.
+/// Vectors of which each rank knows entries of its own: gather() gives them to all, collect() to the first.
 class Exchange {
  public:
   /// The entries of each rank; no entry is of two ranks.
@@ -107,6 +118,8 @@ class Exchange {
   /// Afterwards every rank has the entries of all ranks, each of `width` values. All ranks call it, for vectors of the
   /// same size.
   void gather(std::span<double> values, std::size_t width = 1) const;
+  /// Afterwards the first rank has them, whose vector alone changes.
+  void collect(std::span<double> values, std::size_t width = 1) const;
 
  private:
   std::vector<std::vector<EntryRange>> of_ranks_;

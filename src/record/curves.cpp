@@ -292,7 +292,7 @@ void ProbeCurves::complete(const StepView& view) const {
     for (const std::string& quantity : probe.quantities) {
       const bool is_of_nodes = quantity == "displacement" || quantity == "velocity" || quantity == "acceleration";
       if (PartSums::is_known_to_all(quantity)) continue;
-      if (!is_of_nodes && quantity != "reaction" && quantity != "reaction_moment") return view.shared.complete();
+      if (!is_of_nodes && quantity != "reaction" && quantity != "reaction_moment") return view.shared.collect();
       if (is_of_nodes) nodes.insert(nodes.end(), probe.nodes.begin(), probe.nodes.end());
     }
   if (!nodes.empty()) view.shared.complete(nodes);

@@ -83,9 +83,10 @@ bool KeyFigures::is_static(double t) const {
 
 void KeyFigures::sample(const StepView& view, bool is_last) {
   const bool begins = begin_.empty() && !is_static(view.state.t);
-  if (begins || is_last) view.shared.complete();
+  if (begins || is_last) view.shared.collect_velocities();
   if (begins) begin_ = velocities(view.state.v);
   if (is_last) end_ = velocities(view.state.v);
+  if (begins || is_last) view.shared.release();
   if (view.step == last_step_ || !(is_last || view.step % stress_every_ == 0)) return;
   last_step_ = view.step;
   look_at_stress(view);

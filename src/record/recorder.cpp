@@ -264,8 +264,9 @@ void Recorder::record(const StepView& view, bool is_last) {
     add_row();
   }
   if ((is_last || frame_is_due) && view.step != last_frame_) {
-    if (!simulation_.given().output.fields.empty()) view.shared.complete();
+    if (!simulation_.given().output.fields.empty()) view.shared.collect();
     record_frame(view);
+    view.shared.release();
   }
 }
 

@@ -209,8 +209,9 @@ void Run::go_on(FoundRun found, std::optional<double> end) {
 /// Where one is due on the rank that writes them.
 void Run::keep_checkpoint() {
   if (!on_any_rank(checkpoints_ && (march().at_end() || checkpoints_->is_due(march().steps())))) return;
-  march().complete();
-  if (checkpoints_) write_checkpoint();
+  march().with_all_of_it([&] {
+    if (checkpoints_) write_checkpoint();
+  });
 }
 
 void Run::write_checkpoint() {
@@ -255,9 +256,10 @@ void Run::step() {
 }
 
 void Run::interrupt() {
-  march().complete();
-  if (checkpoints_) write_checkpoint();
-  march().leave();
+  march().with_all_of_it([&] {
+    if (checkpoints_) write_checkpoint();
+    march().leave();
+  });
   outcome_ = Outcome::stopped;
   message_ =
       fmt::format("interrupted after step {}, t = {:.6g} of {:.6g}", march().steps(), march().state().t, march().end());

@@ -19,21 +19,17 @@ void CentralDifferences::start(State& state, double dt) {
   start_with_supports(system_, state);
   imposed_steps(system_.supports, state.t, state.t + dt, state.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) state.a[s.dof] = acceleration_to_middle(s, dt);
-  contact_->start(system_, dt, 0.5 * dt, state);
-  start_accelerations(system_, mass_solver_, state);
-  if (is_lumped()) state.forces.inertia = std::vector<double>();  // its memory as well
+  contact_->start(system_, dt, 0.5 * dt, state, shared_nodes());
+  if (!is_lumped()) return start_accelerations(system_, mass_solver_, state);
+  state.forces.inertia = std::vector<double>();  // its memory as well
+  start_lumped_accelerations(system_, nodes(), state);
 }
 
 StepReport CentralDifferences::step(const State& begin, const StepRequest& request, State& end) {
   const double h = request.dt;
-  const std::size_t n = begin.q.size();
   end.t = request.t_end;
-  end.q.resize(n);
-  end.v.resize(n);
-  if (is_lumped())
-    end.a.resize(n);
-  else
-    end.a = begin.a;  // the first guess of the solve
+  for (std::vector<double>* values : {&end.q, &end.v, &end.a}) nodes().resize(*values);
+  if (!is_lumped()) end.a = begin.a;  // the first guess of the solve
   carry_memory(begin, end);
   StepReport report;
   imposed_steps(system_.supports, begin.t, end.t, begin.q, imposed_);
@@ -57,7 +53,8 @@ StepReport CentralDifferences::step(const State& begin, const StepRequest& reque
   PointStep bodies = step_from(begin, h);
   bodies.nodes = shared_nodes();
   evaluate_bodies(system_, bodies, end);
-  nodes().spoil(end.forces.internal);
+  for (std::vector<double>* values : {&end.forces.internal, &end.forces.external.value})
+    if (!values->empty()) nodes().spoil(*values);
   // Contact looks at the step that follows.
   imposed_steps(system_.supports, end.t, end.t + h, end.q, imposed_next_);
   for (const ImposedStep& s : imposed_next_) end.a[s.dof] = (s.mean_velocity - v_half[s.dof]) / h;

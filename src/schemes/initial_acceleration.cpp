@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "base/page_memory.hpp"
 #include "parallel/threads.hpp"
 #include "rows/admissible.hpp"
 #include "schemes/imposed_motion.hpp"
@@ -16,7 +17,8 @@ void start_with_supports(const System& system, State& state) {
   const std::size_t n = system.solid.dof_count();
   state.q.resize(n, 0.0);
   state.v.resize(n, 0.0);
-  state.a.assign(n, 0.0);
+  state.a.resize(n);
+  release_pages(state.a);
   if (state.points.size() != history_size(system.solid)) state.points = initial_history(system.solid);
   state.contact.resize(system.contact.slots(state.topology));
   State fresh;
@@ -76,6 +78,18 @@ void start_accelerations(const System& system, MassSolver& solver, State& state)
   force_sum(state.forces, rhs);
   if (solver.solve(rhs, state.a) < 0) throw std::runtime_error("the initial accelerations cannot be solved for");
   complete_forces(system, state);
+}
+
+void start_lumped_accelerations(const System& system, const Holding& nodes, State& state) {
+  const Forces& forces = state.forces;
+  nodes.each_range([&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = 3 * begin; i < 3 * end; ++i) {
+      if ((system.supports.fixed_components(i / 3) >> (i % 3) & 1U) != 0) continue;
+      const double m = system.mass.node_diagonal()[i / 3];
+      state.a[i] = m > 0.0 ? (forces.external[i] - forces.internal[i] + forces.contact[i]) / m : 0.0;
+    }
+  });
+  complete_forces_without_inertia(system, nodes, state);
 }
 
 }  // namespace carom

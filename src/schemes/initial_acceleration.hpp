@@ -24,5 +24,7 @@ void start_equations(const System& system, MassSolver& solver, double dt, State&
 /// Solves M a = f - F(u) + contact for the free accelerations, the prescribed ones standing in state.a, and completes
 /// the forces. Throws std::runtime_error when the mass matrix cannot be solved.
 void start_accelerations(const System& system, MassSolver& solver, State& state);
+/// The same with a lumped mass, where ranks share the nodes out, but for the inertia, which stays empty.
+void start_lumped_accelerations(const System& system, const Holding& nodes, State& state);
 
 }  // namespace carom

@@ -5,8 +5,10 @@
 #include <limits>
 #include <utility>
 
+#include "base/page_memory.hpp"
 #include "enforcement/contact_frequency.hpp"
 #include "math/vec3.hpp"
+#include "parallel/entries.hpp"
 #include "parallel/threads.hpp"
 #include "schemes/driven_cells.hpp"
 #include "solid/stability.hpp"
@@ -16,50 +18,58 @@ namespace carom {
 
 namespace {
 
-/// K + closed contact at one displacement, and M, on the free dofs with mass.
+/// K + closed contact at rest, and M, on the free dofs with mass. Ranks share the nodes out where M is lumped.
 class Vibration {
  public:
   /// rows: nullptr without contact
-  Vibration(const System& system, std::vector<double> u, std::shared_ptr<const ConstraintRows> rows)
-      : system_(system), u_(std::move(u)), rows_(std::move(rows)), inverse_(u_.size()) {
-    const std::vector<bool>& fixed = system.supports.fixed();
-    const std::vector<double>& m = system.mass.node_diagonal();
-    for (std::size_t i = 0; i < inverse_.size(); ++i) inverse_[i] = !fixed[i] && m[i / 3] > 0.0 ? 1.0 / m[i / 3] : 0.0;
-    if (system.mass.kind() != MassKind::lumped) consistent_.emplace(system);
+  Vibration(const System& system, std::shared_ptr<const ConstraintRows> rows)
+      : system_(system), rows_(std::move(rows)), u_(unwritten_zeros(system.solid.dof_count())) {
+    if (system.mass.kind() != MassKind::lumped)
+      consistent_.emplace(system);
+    else
+      nodes_ = &system.solid.shared_nodes();
   }
 
+  Entries entries() const { return nodes_ != nullptr ? Entries(*nodes_) : Entries(u_.size()); }
   Pencil pencil() {
     return {[this](std::span<const double> x, std::span<double> y) { stiffness(x, y); },
-            [this](std::span<const double> x, std::span<double> y) { system_.mass.apply(x, y); },
+            [this](std::span<const double> x, std::span<double> y) { mass(x, y); },
             [this](std::span<const double> x, std::span<double> y) { inverse_mass(x, y); }};
   }
 
  private:
   void stiffness(std::span<const double> x, std::span<double> y) const {
-    system_.solid.tangent_action(u_, x, y);
+    system_.solid.tangent_action(u_, x, y, {.history = {}, .nodes = nodes_});
     if (rows_) add_closed_stiffness(*rows_, x, y);
     if (consistent_) keep_moving(y);  // the inverse of a lumped mass leaves the others out
   }
+  void mass(std::span<const double> x, std::span<double> y) const {
+    if (nodes_ != nullptr)
+      system_.mass.combine(1.0, x, 0.0, y, *nodes_);
+    else
+      system_.mass.apply(x, y);
+  }
   void inverse_mass(std::span<const double> x, std::span<double> y) {
-    if (!consistent_) {
-      parallel_each(y.size(), [&](std::size_t i) { y[i] = x[i] * inverse_[i]; });
-      return;
+    if (consistent_) {
+      std::fill(y.begin(), y.end(), 0.0);
+      consistent_->solve(x, y);
+    } else {
+      entries().each([&](std::size_t i) { y[i] = x[i] / system_.mass.node_diagonal()[i / 3]; });
     }
-    std::fill(y.begin(), y.end(), 0.0);
-    consistent_->solve(x, y);
     keep_moving(y);
   }
   void keep_moving(std::span<double> y) const {
-    parallel_each(y.size(), [&](std::size_t i) {
-      if (inverse_[i] == 0.0) y[i] = 0.0;
+    entries().each([&](std::size_t i) {
+      const bool is_fixed = (system_.supports.fixed_components(i / 3) >> (i % 3) & 1U) != 0;
+      if (is_fixed || system_.mass.node_diagonal()[i / 3] <= 0.0) y[i] = 0.0;
     });
   }
 
   const System& system_;
-  std::vector<double> u_;
   std::shared_ptr<const ConstraintRows> rows_;
-  std::vector<double> inverse_;  ///< of the lumped mass, or of the diagonal; 0 where nothing moves
+  std::vector<double> u_;
   std::optional<MassSolver> consistent_;
+  const Holding* nodes_ = nullptr;  ///< null: every rank has all of them
 };
 
 /// Largest sum of damping / mass over the nodes. For the consistent mass of parallelepipeds, M >= 1/8 of its diagonal
@@ -111,8 +121,8 @@ double closing_step(double limit, double contact_omega_squared) {
 }  // namespace
 
 double RestFrequencies::largest(std::shared_ptr<const ConstraintRows> rows) const {
-  Vibration vibration(system_, std::vector<double>(system_.solid.dof_count(), 0.0), std::move(rows));
-  return largest_eigenvalue(vibration.pencil(), system_.solid.dof_count(), 1e-5).upper;
+  Vibration vibration(system_, std::move(rows));
+  return largest_eigenvalue(vibration.pencil(), vibration.entries(), 1e-5).upper;
 }
 
 double RestFrequencies::free() const {
@@ -122,7 +132,7 @@ double RestFrequencies::free() const {
 
 double RestFrequencies::closed() const {
   if (closed_) return *closed_;
-  const std::vector<double> zero(system_.solid.dof_count(), 0.0);
+  const std::vector<double> zero = unwritten_zeros(system_.solid.dof_count());
   const auto rows = system_.contact.rows_at(zero, zero);
   closed_ = largest(std::make_shared<const ConstraintRows>(as_they_close(*rows, zero)));
   return *closed_;
@@ -138,7 +148,7 @@ StableStep contact_step(const RestFrequencies& rest, double limit, EnforcementKi
   out.dt_closing = std::numeric_limits<double>::infinity();
   double damping_ratio = largest_damping(system.solid, {});
   if (traits(enforcement).adds_stiffness && system.contact.slots() > 0) {
-    const std::vector<double> zero(system.solid.dof_count(), 0.0);
+    const std::vector<double> zero = unwritten_zeros(system.solid.dof_count());
     const auto rows = system.contact.rows_at(zero, zero);
     out.omega_max_squared = rest.closed();
     out.dt_closing = closing_step(limit, contact_frequency_bound(system, *rows, zero));

@@ -224,17 +224,22 @@ Loads::Loads(const Model& model) : vectors_(make_loads(model)), gravity_(gravity
   nodes_.erase(std::unique(nodes_.begin(), nodes_.end()), nodes_.end());
 }
 
-void Loads::force(double t, const Mass& mass, std::span<double> f, JumpSide side) const {
-  std::fill(f.begin(), f.end(), 0.0);
+void Loads::force(double t, const Mass& mass, std::span<double> f, JumpSide side, const Holding* shared) const {
+  const auto each_range = [&](const auto& body) {
+    if (shared != nullptr)
+      shared->each_range(body);
+    else
+      parallel_for(f.size() / 3, vector_grain, body);
+  };
+  each_range([&](std::size_t begin, std::size_t end) { std::ranges::fill(f.subspan(3 * begin, 3 * (end - begin)), 0.0); });
   for (const LoadVector& load : vectors_) {
     const double factor = load.factor(t, side);
     for (std::size_t k = 0; k < load.nodes.size(); ++k)
       for (std::size_t i = 0; i < 3; ++i) f[3 * at(load.nodes[k]) + i] += factor * load.force[k][i];
   }
   for (const Gravity& gravity : gravity_) {
-    const double factor = gravity.factor(t, side);
-    const Vec3& g = gravity.acceleration;
-    mass.add_gravity({factor * g[0], factor * g[1], factor * g[2]}, f);
+    const Vec3 g = scaled(gravity.acceleration, gravity.factor(t, side));
+    each_range([&](std::size_t begin, std::size_t end) { mass.add_gravity(g, {begin, end}, f); });
   }
 }
 

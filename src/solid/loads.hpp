@@ -24,9 +24,10 @@ class Loads {
   bool empty() const { return nodes_.empty(); }
   /// The nodes that they may act on, increasing: all of them under gravity.
   const std::vector<Index>& nodes() const { return nodes_; }
-  /// f = external force at time t (nodal forces, pressures, gravity); overwrites f. Gravity acts on the mass that the
-  /// scheme uses.
-  void force(double t, const Mass& mass, std::span<double> f, JumpSide side = JumpSide::after) const;
+  /// f = external force at time t (nodal forces, pressures, gravity); overwrites f, where nodes are shared out at those
+  /// that this rank holds (null: they are not). Gravity acts on the mass that the scheme uses.
+  void force(double t, const Mass& mass, std::span<double> f, JumpSide side = JumpSide::after,
+             const Holding* shared = nullptr) const;
 
  private:
   std::vector<LoadVector> vectors_;

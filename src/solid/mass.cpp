@@ -17,11 +17,10 @@ Mass::Mass(CsrMatrix node_matrix)
 
 Mass::Mass(std::vector<double> node_masses) : kind_(MassKind::lumped), diagonal_(std::move(node_masses)) {}
 
-void Mass::add_gravity(const Vec3& acceleration, std::span<double> f) const {
+void Mass::add_gravity(const Vec3& acceleration, EntryRange nodes, std::span<double> f) const {
   const std::vector<double>& sums = kind_ == MassKind::lumped ? diagonal_ : row_sums_;
-  parallel_each(sums.size(), [&](std::size_t n) {
+  for (std::size_t n = nodes.begin; n < nodes.end; ++n)
     for (std::size_t i = 0; i < 3; ++i) f[3 * n + i] += sums[n] * acceleration[i];
-  });
 }
 
 void Mass::combine(double m, std::span<const double> x, double c, std::span<double> y, EntryRange range) const {

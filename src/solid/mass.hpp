@@ -45,8 +45,9 @@ class Mass {
   }
   /// Diagonal of M, one entry per node.
   const std::vector<double>& node_diagonal() const { return diagonal_; }
-  /// f += M 1 times a uniform acceleration: the force of gravity, under which every free body falls with a = g.
-  void add_gravity(const Vec3& acceleration, std::span<double> f) const;
+  /// f += M 1 times a uniform acceleration at some nodes: the force of gravity, under which every free body falls with
+  /// a = g.
+  void add_gravity(const Vec3& acceleration, EntryRange nodes, std::span<double> f) const;
   /// The node matrix of a consistent mass.
   const CsrMatrix& node_matrix() const { return matrix_; }
   /// Sum of all entries: the total mass.

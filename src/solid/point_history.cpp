@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "base/page_memory.hpp"
 #include "base/types.hpp"
 #include "solid/solid_impl.hpp"
 
@@ -14,12 +15,24 @@ std::size_t history_size(const Solid& solid) {
   return solid.parts().points_history_size() + solid.cohesive().history_size();
 }
 std::vector<double> initial_history(const Solid& solid) {
-  return std::vector<double>(history_size(solid), 0.0);
+  return unwritten_zeros(history_size(solid));
 }
 
 void complete_history(const Solid& solid, std::span<double> history) {
   const Solid::Parts& parts = solid.parts();
   if (parts.share_of_cells && !history.empty()) parts.share_of_cells->history.gather(history);
+}
+
+void collect_history(const Solid& solid, std::span<double> history) {
+  const Solid::Parts& parts = solid.parts();
+  if (parts.share_of_cells && !history.empty()) parts.share_of_cells->history.collect(history);
+}
+
+void release_history(const Solid& solid, std::span<double> history) {
+  const Solid::Parts& parts = solid.parts();
+  if (!parts.share_of_cells || history.empty()) return;
+  each_gap(parts.share_of_cells->held_history, history.size(),
+           [&](std::size_t begin, std::size_t end) { release_pages(history.subspan(begin, end - begin)); });
 }
 
 std::vector<double> history_by_cell(const Solid& solid, std::span<const double> history) {

@@ -19,6 +19,10 @@ std::vector<double> history_by_cell(const Solid& solid, std::span<const double> 
 std::vector<double> history_of_lanes(const Solid& solid, std::span<const double> by_cell);
 /// Every rank gives all the history of its cells, after steps in which it has stayed with the ranks (PointStep::nodes).
 void complete_history(const Solid& solid, std::span<double> history);
+/// They give it to the first rank alone.
+void collect_history(const Solid& solid, std::span<double> history);
+/// Gives the memory back of the history of cells that this rank does not compute.
+void release_history(const Solid& solid, std::span<double> history);
 /// Zeroes what the points of the cells that have gone (alive: 0, by cell) remember.
 void forget_gone(const Solid& solid, std::span<const std::uint8_t> alive, std::span<double> history);
 

@@ -53,17 +53,21 @@ std::optional<RankShare> rank_share(const SolidCells& cells) {
     chunks[rank].push_back({c, c + 1});
     history[rank].push_back(history_of(cells, cells.chunks[c]));
   }
-  RankShare share{{}, {0}, Exchange(std::move(chunks)), Exchange(std::move(history)), {}};
+  RankShare share{{}, {0}, Exchange(std::move(chunks)), Exchange(std::move(history)), {}, 0, {}};
   for (const std::size_t rank : owner) share.is_own.push_back(rank == own ? 1 : 0);
   for (std::size_t colour = 0; colour + 1 < cells.colour_begin.size(); ++colour) {
     for (std::size_t c = cells.colour_begin[colour]; c < cells.colour_begin[colour + 1]; ++c) {
       ChunkDuty duty{c, {cells.chunks[c]}};
       if (owner[c] != own) duty.runs = batches_at(cells, cells.chunks[c], share_of(own, count, node_count));
-      for (const Chunk& run : duty.runs) share.cells += at(run.cells);
+      for (const Chunk& run : duty.runs) {
+        share.cells += at(run.cells);
+        share.held_history.push_back(history_of(cells, run));
+      }
       if (!duty.runs.empty()) share.duties.push_back(std::move(duty));
     }
     share.colour_begin.push_back(share.duties.size());
   }
+  std::ranges::sort(share.held_history, {}, &EntryRange::begin);
   return share;
 }
 

@@ -27,6 +27,7 @@ struct RankShare {
   Exchange by_chunk, history;             ///< an entry for each chunk, and the history
   std::vector<std::uint8_t> is_own;       ///< by chunk
   std::size_t cells = 0;                  ///< how many the rank computes
+  std::vector<EntryRange> held_history;   ///< of these cells, in their order
 };
 
 /// Of the calling thread's rank; nothing where it is the only one.

@@ -29,7 +29,6 @@ struct BondedMass::Impl {
         mass(with),
         equations_alone(which == Bonds::equations),
         rows(equations_alone ? of.contact.equations() : of.contact.bonds()) {
-    plain = mass_operator(system, mass);
     if (rows.size() == 0) return;
     moved.assign(system.solid.dof_count(), 0.0);
     touched.assign(system.solid.node_count(), false);
@@ -46,6 +45,11 @@ struct BondedMass::Impl {
     }
   }
 
+  /// Of the mass alone, made when it is asked for first: it takes memory.
+  const ContactOperator& plain() {
+    if (!plain_) plain_ = mass_operator(system, mass);
+    return *plain_;
+  }
   bool is_lumped() const { return system.mass.kind() == MassKind::lumped; }
   void factorise();
   bool solve(const std::vector<Vec3>& parting, std::vector<Vec3>& force);
@@ -66,7 +70,7 @@ struct BondedMass::Impl {
   MassSolver& mass;
   bool equations_alone;
   const ConstraintRows& rows;
-  ContactOperator plain;
+  std::optional<ContactOperator> plain_;
   Delassus W;
   std::vector<double> unit;  ///< of each component's force, that makes the diagonal of W 1; 0 where it has none
   std::optional<Cholesky> factor;
@@ -82,7 +86,7 @@ void BondedMass::Impl::factorise() {
   mass.factorise();
   std::vector<std::size_t> all(rows.size());
   for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
-  W = plain.delassus(rows, all);
+  W = plain().delassus(rows, all);
   const std::size_t n = 3 * W.size();
   unit.assign(n, 0.0);
   for (std::size_t i = 0; i < W.size(); ++i) {
@@ -201,7 +205,7 @@ void BondedMass::Impl::give(Forces& forces) const {
 /// b = A^-1 b
 bool BondedMass::Impl::invert(std::span<double> b) {
   factorise();
-  plain.inverse(b);
+  plain().inverse(b);
   parting.resize(rows.size());
   for (std::size_t r = 0; r < rows.size(); ++r) parting[r] = rows.relative(r, b);
   if (!solve(parting, answer)) return false;
@@ -216,7 +220,7 @@ bool BondedMass::Impl::invert(std::span<double> b) {
   }
   std::vector<double> push(b.size(), 0.0);
   for (std::size_t r = 0; r < rows.size(); ++r) rows.scatter(r, answer[r], push);
-  plain.inverse(push);
+  plain().inverse(push);
   for (std::size_t i = 0; i < b.size(); ++i) b[i] += push[i];
   return true;
 }
@@ -242,7 +246,7 @@ std::vector<std::size_t> BondedMass::Impl::bonds_at(const ConstraintRows& of, st
 // G A^-1 G^T of a lumped mass: G M^-1 G^T, as sparse as that is, and what the bonds add between rows that share nodes
 // with them, for each of their components the answer of the bonds to what it does to them.
 Delassus BondedMass::Impl::delassus(const ConstraintRows& of, const std::vector<std::size_t>& chosen) {
-  Delassus own = plain.delassus(of, chosen);
+  Delassus own = plain().delassus(of, chosen);
   std::vector<std::size_t> meeting, rows_meeting;  // rows of W, and of `of`
   for (std::size_t i = 0; i < own.size(); ++i) {
     if (!touches(of, own.rows[i])) continue;
@@ -314,7 +318,7 @@ std::string BondedMass::balance(std::span<const double> a, Forces& forces, std::
 }
 
 ContactOperator BondedMass::contact_operator() {
-  if (!any()) return impl_->plain;
+  if (!any()) return impl_->plain();
   ContactOperator out;
   out.inverse = [&impl = *impl_](std::span<double> b) { impl.invert(b); };
   out.delassus = [&impl = *impl_](const ConstraintRows& rows, const std::vector<std::size_t>& chosen) {

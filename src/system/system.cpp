@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/page_memory.hpp"
 #include "parallel/threads.hpp"
 #include "solid/point_history.hpp"
 
@@ -25,8 +26,9 @@ void take(const SolidEnergies& energies, EnergyTerms& terms) {
 
 void evaluate_solid(const System& system, const PointStep& step, State& end) {
   Forces& forces = end.forces;
-  forces.internal.resize(end.q.size());
-  end.points.resize(history_size(system.solid));
+  (step.nodes != nullptr ? *step.nodes : system.solid.all_nodes()).resize(forces.internal);
+  if (const std::size_t size = history_size(system.solid); end.points.size() != size)
+    end.points = unwritten_zeros(size);
   std::vector<SolidEnergies> of_parts;
   take(system.solid.evaluate(end.q, step, forces.internal, end.points, &of_parts), forces.stored);
   forces.of_parts.resize(of_parts.size());
@@ -41,13 +43,13 @@ PointStep start_step(double dt, std::span<const double> points, const State& sta
 
 void evaluate_bodies(const System& system, const PointStep& step, State& end) {
   evaluate_solid(system, step, end);
-  evaluate_loads(system, end.t, end.forces);
+  evaluate_loads(system, end.t, end.forces, JumpSide::after, step.nodes);
 }
 
-void evaluate_loads(const System& system, double t, Forces& forces, JumpSide side) {
+void evaluate_loads(const System& system, double t, Forces& forces, JumpSide side, const Holding* shared) {
   if (system.solid.loads().empty()) return forces.external.value.clear();
-  forces.external.value.resize(system.solid.dof_count());
-  system.solid.loads().force(t, system.mass, forces.external.value, side);
+  (shared != nullptr ? *shared : system.solid.all_nodes()).resize(forces.external.value);
+  system.solid.loads().force(t, system.mass, forces.external.value, side, shared);
 }
 
 Momentum momentum_from(const double* sums) {
@@ -104,6 +106,17 @@ void StateSums::give(const System& system, const double* sums, Forces& forces) {
   forces.stored.contact_stored = forces.rows.stored;
   forces.inertia_power = sums[2];
   forces.total_momentum = momentum_from(sums + 3);
+}
+
+void complete_forces_without_inertia(const System& system, const Holding& nodes, State& state) {
+  const StateSums terms(system, state);
+  const auto sums =
+      nodes.sums<StateSums::count>([&](std::size_t node, std::array<double, StateSums::count>& s) {
+        terms.add(node, vector_at(state.v, node), system.mass.at_node(node, state.v), vector_at(state.a, node),
+                  system.mass.at_node(node, state.a), s.data());
+      });
+  StateSums::give(system, sums.data(), state.forces);
+  complete_supports(system, state);
 }
 
 void complete_forces(const System& system, State& state) {

@@ -41,13 +41,16 @@ PointStep start_step(double dt, std::span<const double> points, const State& sta
 void evaluate_solid(const System& system, const PointStep& step, State& end);
 /// Does what evaluate_solid does, and fills the external forces at end.t.
 void evaluate_bodies(const System& system, const PointStep& step, State& end);
-/// Fills the external forces at time t alone.
-void evaluate_loads(const System& system, double t, Forces& forces, JumpSide side = JumpSide::after);
+/// Fills the external forces at time t alone, of the nodes that ranks share out (null: of all).
+void evaluate_loads(const System& system, double t, Forces& forces, JumpSide side = JumpSide::after,
+                    const Holding* shared = nullptr);
 
 /// Fills the forces that follow from the accelerations and velocities of the state: inertia and forces of the supports;
 /// and with them the stored energies and the total momentum (moments by MomentArms). Precondition: the other forces are
 /// there (evaluate_bodies).
 void complete_forces(const System& system, State& state);
+/// Does the same but for the inertia itself, with a lumped mass, where ranks share the nodes out. All ranks call it.
+void complete_forces_without_inertia(const System& system, const Holding& nodes, State& state);
 /// Fills the forces of the supports alone.
 void complete_supports(const System& system, State& state);
 
