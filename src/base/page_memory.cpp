@@ -26,8 +26,15 @@ void release_pages(std::span<double> values) {
 }
 
 std::vector<double> unwritten_zeros(std::size_t n) {
-  std::vector<double> zeros(n);
-  release_pages(zeros);
+  constexpr std::size_t piece = 1U << 17U;  // 1 MB: what is written in vain takes memory for a moment
+  std::vector<double> zeros;
+  zeros.reserve(n);
+  while (zeros.size() < n) {
+    const std::size_t begin = zeros.size();
+    zeros.resize(std::min(n, begin + piece));
+    release_pages(std::span(zeros).subspan(begin));
+  }
+  release_pages(zeros);  // and the pages between the pieces
   return zeros;
 }
 

@@ -61,7 +61,9 @@ class March {
   const State& state() const { return state_; }
   /// Gives away what holds q, v or a for those that go on looking at it, and goes on with a copy.
   std::vector<double> hand_over(std::vector<double> State::*values);
-  /// On several ranks, gives all of the state to the first one, for as long as body() takes. All ranks call it.
+  /// On several ranks, gives all of the state to each. All ranks call it.
+  void complete() { shared_.complete(); }
+  /// The same to the first one, for as long as body() takes. All ranks call it.
   template <class Body>
   void with_all_of_it(const Body& body) {
     shared_.collect();

@@ -10,32 +10,52 @@
 namespace carom {
 
 Holding::Holding(std::size_t items)
-    : Holding(items, std::vector(ranks().count(), std::vector<std::uint8_t>(items, 1))) {}
-
-Holding::Holding(std::size_t items, std::vector<std::vector<std::uint8_t>> held) : items_(items) {
-  const std::size_t count = ranks().count(), own = ranks().own();
-  std::vector<std::uint8_t> by_all(items, 1);
-  for (std::size_t r = 0; r < count; ++r) {
-    const EntryRange owned = share_of(r, count, items), blocks = blocks_of(r);
-    const auto at = [&](std::size_t i) { return held[r].begin() + static_cast<std::ptrdiff_t>(i); };
-    std::fill(at(owned.begin), at(owned.end), std::uint8_t{1});
-    std::fill(at(blocks.begin), at(blocks.end), std::uint8_t{1});
-    for (std::size_t i = 0; i < items; ++i) by_all[i] &= held[r][i];
-  }
-  by_all_ = ranges_of(by_all, {0, items});
-  is_whole_ = std::ranges::find(by_all, 0) == by_all.end();
-  added_ = blocks_of(own);
-  for (const EntryRange& among : {EntryRange{0, added_.begin}, EntryRange{added_.end, items}})
-    for (const EntryRange& range : ranges_of(held[own], among)) beside_.add(range);
-  held_ = ranges_of(held[own], {0, items});
+    : items_(items), by_all_{{0, items}}, held_{{0, items}}, give_(ranks().count()), take_(ranks().count()) {
+  added_ = blocks_of(ranks().own());
+  beside_.add({0, added_.begin});
+  beside_.add({added_.end, items});
   beside_.close();
-  give_.resize(count);
-  take_.resize(count);
-  for (std::size_t r = 0; r < count; ++r) {
-    if (r == own) continue;
-    give_[r] = ranges_of(held[r], share_of(own, count, items));
-    take_[r] = ranges_of(held[own], share_of(r, count, items));
+  for (std::size_t r = 0; r < ranks().count(); ++r) {
+    if (r == ranks().own()) continue;
+    give_[r] = {own_share_of(items)};
+    take_[r] = {share_of(r, ranks().count(), items)};
   }
+}
+
+Holding::Holding(std::vector<std::uint8_t> held, std::span<const std::uint8_t> by_all)
+    : items_(held.size()), give_(ranks().count()), take_(ranks().count()) {
+  added_ = blocks_of(ranks().own());
+  for (const EntryRange& range : {own_share_of(items_), added_})
+    std::fill_n(held.begin() + static_cast<std::ptrdiff_t>(range.begin), range.size(), std::uint8_t{1});
+  const EntryRange all{0, items_};
+  held_ = ranges_of(held, all);
+  is_whole_ = !on_any_rank(std::ranges::find(held, 0) != held.end());
+  by_all_ = is_whole_ ? held_ : ranges_of(by_all, all);
+  for (const EntryRange& among : {EntryRange{0, added_.begin}, EntryRange{added_.end, items_}})
+    for (const EntryRange& range : ranges_of(held, among)) beside_.add(range);
+  beside_.close();
+  for (std::size_t r = 0; r < take_.size(); ++r)
+    if (r != ranks().own()) take_[r] = ranges_of(held, share_of(r, take_.size(), items_));
+  agree_on_gifts();
+}
+
+void Holding::agree_on_gifts() {
+  const auto each_other = [&](const auto& body) {
+    for (std::size_t r = 0; r < give_.size(); ++r)
+      if (r != ranks().own()) body(r);
+  };
+  each_other([&](std::size_t r) {
+    std::vector<double> ends;
+    for (const EntryRange& range : take_[r])
+      ends.insert(ends.end(), {static_cast<double>(range.begin), static_cast<double>(range.end)});
+    ranks().send(r, ends);
+  });
+  each_other([&](std::size_t r) {
+    const std::vector<double> ends = ranks().receive(r);
+    for (std::size_t k = 0; k < ends.size(); k += 2)
+      give_[r].push_back({static_cast<std::size_t>(ends[k]), static_cast<std::size_t>(ends[k + 1])});
+  });
+  ranks().settle();
 }
 
 void Holding::Pieces::add(EntryRange range) {
@@ -153,8 +173,7 @@ void Holding::spoil([[maybe_unused]] std::span<double> values) const {
 
 void Holding::resize(std::vector<double>& values) const {
   if (values.size() == 3 * items_) return;
-  values = std::vector<double>(3 * items_);
-  release(values);
+  values = unwritten_zeros(3 * items_);
 }
 
 void Holding::release(std::span<double> values) const {

@@ -20,13 +20,14 @@ class Holding {
  public:
   /// Every rank holds all.
   explicit Holding(std::size_t items);
-  /// held[r][i]: rank r holds item i, besides its own and those that it adds up. The same on all ranks.
-  Holding(std::size_t items, std::vector<std::vector<std::uint8_t>> held);
+  /// held[i]: this rank holds item i, besides its own and those that it adds up. by_all[i]: all ranks do, and all of
+  /// them say so. All ranks call it.
+  Holding(std::vector<std::uint8_t> held, std::span<const std::uint8_t> by_all);
 
   std::size_t size() const { return items_; }
   /// True where each rank holds all.
   bool is_whole() const { return is_whole_; }
-  /// The items that the ranks hold, every one of them.
+  /// The items that are known to be held by every rank.
   std::span<const EntryRange> held_by_all() const { return by_all_; }
 
   /// Calls body(begin, end) for ranges of items that together are all that this rank holds, at the same time.
@@ -75,6 +76,8 @@ class Holding {
   };
   static std::vector<EntryRange> ranges_of(std::span<const std::uint8_t> held, EntryRange among);
   EntryRange blocks_of(std::size_t rank) const;
+  /// Each rank tells the owners what it takes from them.
+  void agree_on_gifts();
   /// Of the values that the ranks own.
   Exchange of_owners() const;
   void gather_sums(std::span<double> of_blocks, std::size_t each) const;

@@ -71,26 +71,13 @@ std::optional<RankShare> rank_share(const SolidCells& cells) {
   return share;
 }
 
-void mark_computed(const SolidCells& cells, std::vector<std::vector<std::uint8_t>>& held) {
-  const std::size_t count = ranks().count(), node_count = cells.mesh->node_count();
-  std::vector<std::size_t> computed_by;
-  for (const Chunk& chunk : cells.chunks) {
-    const Block& block = cells.blocks[at(chunk.block)];
-    const std::size_t owner = owner_of(cells, chunk);
-    for (Index first = 0; first < chunk.cells; first += block.stages.lanes) {
-      const Index end = std::min(chunk.cells, first + block.stages.lanes);
-      const auto each_node = [&](const auto& body) {
-        for (Index c = first; c < end; ++c)
-          for (const Index n : cells.nodes_of(at(block.first + chunk.first + c))) body(at(n));
-      };
-      computed_by.assign(1, owner);
-      each_node([&](std::size_t n) {
-        const std::size_t rank = sharer_of(n, count, node_count);
-        if (std::ranges::find(computed_by, rank) == computed_by.end()) computed_by.push_back(rank);
-      });
-      for (const std::size_t rank : computed_by) each_node([&](std::size_t n) { held[rank][n] = 1; });
+void mark_computed(const SolidCells& cells, const RankShare& share, std::span<std::uint8_t> held) {
+  for (const ChunkDuty& duty : share.duties)
+    for (const Chunk& run : duty.runs) {
+      const Index first = cells.blocks[at(run.block)].first + run.first;
+      for (Index c = first; c < first + run.cells; ++c)
+        for (const Index n : cells.nodes_of(at(c))) held[at(n)] = 1;
     }
-  }
 }
 
 }  // namespace carom

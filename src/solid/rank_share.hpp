@@ -33,7 +33,7 @@ struct RankShare {
 /// Of the calling thread's rank; nothing where it is the only one.
 std::optional<RankShare> rank_share(const SolidCells& cells);
 
-/// Marks by rank the nodes of the cells that it computes.
-void mark_computed(const SolidCells& cells, std::vector<std::vector<std::uint8_t>>& held);
+/// Marks the nodes of the cells that the rank computes.
+void mark_computed(const SolidCells& cells, const RankShare& share, std::span<std::uint8_t> held);
 
 }  // namespace carom

@@ -92,9 +92,9 @@ struct Solid::Parts {
     for (const Spring& spring : model.springs) add(spring.nodes);
     for (const RigidBody& body : model.rigid_bodies) add(std::array{body.node});
     if (loaded < all) add(loads.nodes());
-    std::vector<std::vector<std::uint8_t>> held(count, of_all);
-    mark_computed(solid, held);
-    return Holding(all, std::move(held));
+    std::vector<std::uint8_t> held = of_all;
+    mark_computed(solid, *share_of_cells, held);
+    return {std::move(held), of_all};
   }
   /// What ranks have found in the chunks that they look at becomes known to all.
   template <class Found, class Position>

@@ -52,7 +52,8 @@ TEST(GroupSums, HaveTheBitsOfOneRank) {
     const Sums alone = GroupSums(n, 3, shares_of(n)).sums<2>(false, value_of);
     for (const std::size_t count : {1U, 2U, 3U, 7U})
       run_on_ranks(count, [&] {
-        const Holding holding(n, std::vector(count, std::vector<std::uint8_t>(n, 0)));
+        const std::vector<std::uint8_t> none(n, 0);
+        const Holding holding(none, none);
         std::vector<double> known(n, std::nan(""));
         holding.each_range([&](std::size_t begin, std::size_t end) {
           for (std::size_t i = begin; i < end; ++i) known[i] = 1.0;

@@ -11,14 +11,15 @@
 namespace carom::parallel_holding {
 namespace {
 
-using Held = std::vector<std::vector<std::uint8_t>>;
-
-/// Each of the ranks holds what it must, and every seventh item.
-Held every_seventh(std::size_t ranks, std::size_t items) {
-  Held held(ranks, std::vector<std::uint8_t>(items, 0));
-  for (std::vector<std::uint8_t>& own : held)
-    for (std::size_t i = 0; i < items; i += 7) own[i] = 1;
+/// Every seventh item, which each of the ranks holds besides what it must.
+std::vector<std::uint8_t> every_seventh(std::size_t items) {
+  std::vector<std::uint8_t> held(items, 0);
+  for (std::size_t i = 0; i < items; i += 7) held[i] = 1;
   return held;
+}
+
+Holding with_every_seventh(std::size_t items) {
+  return {every_seventh(items), every_seventh(items)};
 }
 
 double value_of(std::size_t i) {
@@ -58,7 +59,7 @@ TEST(Holding, SumsHaveTheBitsOfOneRank) {
     const std::array<double, 2> alone = parallel_sums<2>(n, add);
     for (const std::size_t count : {1U, 2U, 3U, 7U})
       run_on_ranks(count, [&] {
-        EXPECT_EQ(Holding(n, every_seventh(count, n)).sums<2>(add), alone) << n << " on " << count;
+        EXPECT_EQ(with_every_seventh(n).sums<2>(add), alone) << n << " on " << count;
         EXPECT_EQ(Holding(n).sums<2>(add), alone) << n << " on " << count;
       });
   }
@@ -66,7 +67,7 @@ TEST(Holding, SumsHaveTheBitsOfOneRank) {
 
 TEST(Holding, SumsAddNothingThatARankDoesNotHold) {
   run_on_ranks(3, [] {
-    const Holding holding(14161, every_seventh(3, 14161));
+    const Holding holding = with_every_seventh(14161);
     const std::vector<std::uint8_t> is_held = seen_by(holding);
     const auto sums = holding.sums<1>([&](std::size_t i, std::array<double, 1>& s) { s[0] += is_held[i]; });
     EXPECT_EQ(sums[0], 14161.0);
@@ -77,7 +78,7 @@ TEST(Holding, GoesOnceThroughWhatIsHeldAndNoFurther) {
   for (const std::size_t n : sizes)
     for (const std::size_t count : {2U, 3U, 7U})
       run_on_ranks(count, [&] {
-        const Holding holding(n, every_seventh(count, n));
+        const Holding holding = with_every_seventh(n);
         const std::vector<std::uint8_t> seen = seen_by(holding);
         const EntryRange own = share_of(ranks().own(), count, n);
         for (std::size_t i = 0; i < n; ++i) {
@@ -92,7 +93,7 @@ TEST(Holding, UpdateGivesWhatIsHeldByItsOwnerAndLeavesTheRest) {
   for (const std::size_t n : sizes)
     for (const std::size_t count : {2U, 3U, 7U})
       run_on_ranks(count, [&] {
-        const Holding holding(n, every_seventh(count, n));
+        const Holding holding = with_every_seventh(n);
         const EntryRange own = share_of(ranks().own(), count, n);
         std::vector<double> values = known(n, [&](std::size_t i) { return i >= own.begin && i < own.end; });
         holding.update(values);
@@ -106,7 +107,7 @@ TEST(Holding, CompleteGivesAllOrSomeOfTheItems) {
   const std::vector<Index> some{4999, 3, 1700, 3};
   for (const std::size_t count : {2U, 3U})
     run_on_ranks(count, [&] {
-      const Holding holding(n, every_seventh(count, n));
+      const Holding holding = with_every_seventh(n);
       const EntryRange own = share_of(ranks().own(), count, n);
       const auto is_own = [&](std::size_t i) { return i >= own.begin && i < own.end; };
       std::vector<double> values = known(n, is_own);
@@ -119,12 +120,39 @@ TEST(Holding, CompleteGivesAllOrSomeOfTheItems) {
     });
 }
 
+TEST(Holding, CollectGivesAllToTheFirstRankAlone) {
+  for (const std::size_t n : sizes)
+    for (const std::size_t count : {2U, 3U, 7U})
+      run_on_ranks(count, [&] {
+        const Holding holding = with_every_seventh(n);
+        const EntryRange own = own_share_of(n);
+        const std::vector<double> before = known(n, [&](std::size_t i) { return own.has(i); });
+        std::vector<double> values = before;
+        holding.collect(values);
+        const bool gets_all = ranks().own() == 0 && !holding.is_whole();
+        EXPECT_EQ(values, gets_all ? known(n, [](std::size_t) { return true; }) : before) << n << " on " << count;
+      });
+}
+
+TEST(Holding, ReleaseLeavesWhatIsHeldAndMakesTheRestZero) {
+  constexpr std::size_t n = 50000;  // pages have 170 items
+  run_on_ranks(3, [] {
+    const Holding holding(std::vector<std::uint8_t>(n, 0), std::vector<std::uint8_t>(n, 0));
+    const std::vector<std::uint8_t> is_held = seen_by(holding);
+    std::vector<double> made, values(3 * n, 7.0);
+    holding.resize(made);
+    EXPECT_EQ(made, std::vector<double>(3 * n, 0.0));
+    holding.release(values);
+    for (std::size_t i = 0; i < 3 * n; ++i) ASSERT_EQ(values[i], is_held[i / 3] != 0 ? 7.0 : 0.0) << i;
+  });
+}
+
 // 14,161 items on three ranks: 0 has those up to 4719, of which the last block of 2048 goes on to 6143; so it holds
 // 1423 of rank 1, whose share ends with 9439 and whose last block with 10239.
 TEST(Holding, SendsNothingThatIsNotHeld) {
   run_on_ranks(3, [] {
     constexpr std::size_t n = 14161;
-    const Holding holding(n, Held(3, std::vector<std::uint8_t>(n, 0)));
+    const Holding holding(std::vector<std::uint8_t>(n, 0), std::vector<std::uint8_t>(n, 0));
     std::vector<double> values(3 * n);
     const Traffic before = ranks().sent();
     holding.update(values);
