@@ -116,7 +116,7 @@ void follow(const Simulation& s, const ConstraintRows& rows, const Flight& fligh
 }  // namespace
 
 std::vector<Approach> approaches(const Simulation& s, const State& state) {
-  const std::shared_ptr<const ConstraintRows> shared = s.initial_rows();
+  const std::shared_ptr<const ConstraintRows> shared = s.contact().rows_at(state.q, state.q);
   const ConstraintRows& rows = *shared;
   const std::vector<double>& masses = s.mass().node_diagonal();
   std::vector<Approach> out(s.given().contacts.size());

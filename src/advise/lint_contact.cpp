@@ -146,7 +146,7 @@ class ContactLint {
       return;
     }
     if (is_led_to_turn(c)) return;  // where it looks and goes at the start says little of where it comes to
-    if (faces_away(s_.model(), *s_.initial_rows(), c, state_)) {
+    if (faces_away(s_.model(), *s_.contact().rows_at(state_.q, state_.q), c, state_)) {
       const Located<std::string>* master = given(c).master();
       say(": no face of \"{}\" looks at {}: are these the faces that touch?", *given(c).group(),
           master != nullptr ? fmt::format("a face of \"{}\"", **master) : "the obstacle");

@@ -243,11 +243,6 @@ void Simulation::refuse_buried_facets(std::size_t c, const State& state) const {
       "Is one body placed on the wrong side of the other? Contact sees overlaps of one facet's size at most.");
 }
 
-std::shared_ptr<const ConstraintRows> Simulation::initial_rows() const {
-  const State state = initial_state();
-  return contact_.rows_at(state.q, state.q);
-}
-
 State Simulation::initial_state() const {
   State state;
   for (std::vector<double>* values : {&state.q, &state.v, &state.a}) *values = unwritten_zeros(solid_.dof_count());

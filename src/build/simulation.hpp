@@ -48,8 +48,6 @@ class Simulation {
   /// What the case takes over of another run.
   const std::optional<TakenState>& taken() const { return taken_; }
 
-  /// Contact rows at the start.
-  std::shared_ptr<const ConstraintRows> initial_rows() const;
   /// The state of the case's [initial_state] and [[initial]] sections, before Scheme::start; with the velocities that
   /// begin later, if the first stages are statics.
   State initial_state() const;

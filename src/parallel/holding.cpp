@@ -177,9 +177,8 @@ void Holding::resize(std::vector<double>& values) const {
 }
 
 void Holding::release(std::span<double> values) const {
-  each_gap(held_, items_, [&](std::size_t begin, std::size_t end) {
-    release_pages(values.subspan(3 * begin, 3 * (end - begin)));
-  });
+  each_gap(held_, items_,
+           [&](std::size_t begin, std::size_t end) { release_pages(values.subspan(3 * begin, 3 * (end - begin))); });
 }
 
 }  // namespace carom

@@ -231,7 +231,8 @@ void Loads::force(double t, const Mass& mass, std::span<double> f, JumpSide side
     else
       parallel_for(f.size() / 3, vector_grain, body);
   };
-  each_range([&](std::size_t begin, std::size_t end) { std::ranges::fill(f.subspan(3 * begin, 3 * (end - begin)), 0.0); });
+  each_range(
+      [&](std::size_t begin, std::size_t end) { std::ranges::fill(f.subspan(3 * begin, 3 * (end - begin)), 0.0); });
   for (const LoadVector& load : vectors_) {
     const double factor = load.factor(t, side);
     for (std::size_t k = 0; k < load.nodes.size(); ++k)

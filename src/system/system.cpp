@@ -110,11 +110,10 @@ void StateSums::give(const System& system, const double* sums, Forces& forces) {
 
 void complete_forces_without_inertia(const System& system, const Holding& nodes, State& state) {
   const StateSums terms(system, state);
-  const auto sums =
-      nodes.sums<StateSums::count>([&](std::size_t node, std::array<double, StateSums::count>& s) {
-        terms.add(node, vector_at(state.v, node), system.mass.at_node(node, state.v), vector_at(state.a, node),
-                  system.mass.at_node(node, state.a), s.data());
-      });
+  const auto sums = nodes.sums<StateSums::count>([&](std::size_t node, std::array<double, StateSums::count>& s) {
+    terms.add(node, vector_at(state.v, node), system.mass.at_node(node, state.v), vector_at(state.a, node),
+              system.mass.at_node(node, state.a), s.data());
+  });
   StateSums::give(system, sums.data(), state.forces);
   complete_supports(system, state);
 }
