@@ -1,8 +1,11 @@
 #include "build/rigid_bodies.hpp"
 
+#include <fmt/format.h>
+
 #include <optional>
 #include <stdexcept>
 
+#include "build/guides.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
@@ -78,19 +81,33 @@ std::vector<Vec3> carrier_positions(const CaseContact& contact, double size) {
 void add_body(const CaseContact& contact, Index first, ObstacleContact& obstacle, Model& model) {
   const CaseObstacle& given = *contact.obstacle();
   const Vec3 velocity = given.velocity.value_or(Vec3{});
+  const Vec3 spin = given.body.angular_velocity ? **given.body.angular_velocity : Vec3{};
+  const CaseGuide& guide = given.body.guide;
   if (!given.turns()) {
     obstacle.carrier = first;
     model.initial.push_back({{first}, {}, {velocity}});
-    if (given.body.mass) model.rigid_bodies.push_back({*contact.name, first, *given.body.mass});
+    if (!given.body.mass) return;
+    model.rigid_bodies.push_back({*contact.name, first, *given.body.mass});
+    refuse_guided_motion(guide, "contact", *contact.name, {}, velocity, spin);
+    for (std::size_t c = 0; c < 3; ++c)
+      if (guide.holds_along(c))
+        model.motions.push_back({fmt::format("blocked of contact \"{}\" (line {})", *contact.name, contact.where.line),
+                                 {first},
+                                 static_cast<int>(c),
+                                 MotionKind::velocity,
+                                 {{0.0}, {0.0}}});
     return;
   }
-  const Vec3 spin = given.body.angular_velocity ? **given.body.angular_velocity : Vec3{};
   const Vec3& X = model.mesh->coordinates[static_cast<std::size_t>(first)];
   TurningBody body = body_of(contact, norm(subtract(X, given.body.centre_of_rotation.value_or(Vec3{}))));
   for (std::size_t a = 0; a < 4; ++a) {
     body.nodes[a] = first + static_cast<Index>(a);
     const Vec3 v = add(velocity, cross(spin, subtract(corner(body, a), body.centre)));
     model.initial.push_back({{body.nodes[a]}, {}, {v}});
+  }
+  if (!body.is_led()) {
+    refuse_guided_motion(guide, "contact", body.name, body.centre, velocity, spin);
+    add_guide(guide, body, contact.where, model);
   }
   obstacle.body = static_cast<Index>(model.turning_bodies.size());
   model.turning_bodies.push_back(std::move(body));

@@ -20,7 +20,8 @@ std::size_t carrier_nodes(const Case& given);
 std::vector<Vec3> carrier_positions(const CaseContact& contact, double size);
 
 /// Appends to the model what holds the obstacle, whose first node is given: initial velocities, and a RigidBody or a
-/// TurningBody where it is free or turns. What leads it is left to the caller.
+/// TurningBody where it is free or turns, with its guide. What leads it is left to the caller. Throws CaseError for a
+/// velocity against the guide.
 void add_body(const CaseContact& contact, Index first, ObstacleContact& obstacle, Model& model);
 
 }  // namespace carom

@@ -11,6 +11,7 @@
 
 #include "build/attached.hpp"
 #include "build/eroding_parts.hpp"
+#include "build/guides.hpp"
 #include "math/vec3.hpp"
 #include "solid/part_inertia.hpp"
 
@@ -253,6 +254,7 @@ void RigidParts::add_to(Model& model, Index first) {
         model.equations.push_back(std::move(equation));
       }
     }
+    add_guide(body.given->guide, body.turning, body.given->where, model);
     model.turning_bodies.push_back(body.turning);
   }
 }
@@ -275,6 +277,12 @@ std::vector<Index> RigidParts::carried(std::vector<Index> nodes, const Located<s
                       body.followers.size() + body.joined.size() + body.points.size(), body.turning.name, *group),
           "all nodes of a rigid body, or none",
           "What holds a body as a whole names a group of the cells of all of its parts.");
+    if (body.given->guide.holds())
+      throw CaseError(
+          group.where, key,
+          fmt::format("\"{}\", the nodes of rigid body \"{}\", which has a guide", *group, body.turning.name),
+          "blocked and blocked_turns of the [[rigid_body]], or supports of its nodes",
+          "A support of all nodes along an axis also holds the turns about the two others.");
     std::erase_if(nodes, [&](Index n) { return body_of_node_[at(n)] == static_cast<Index>(b); });
     nodes.insert(nodes.end(), body.turning.nodes.begin(), body.turning.nodes.end());
   }
@@ -354,6 +362,9 @@ void RigidParts::carry(std::vector<InitialState>& all, std::size_t stage) const 
           refuse(fmt::format("{} that no rigid body has, by {:.3g},", may_turn ? "velocities" : "displacements", off),
                  may_turn ? "velocities of a translation and a rotation" : "one displacement for all nodes");
       }
+      if (may_turn && motion)
+        refuse_guided_motion(body.given->guide, section, body.turning.name, body.turning.centre,
+                             motion->at(body.turning.centre), motion->omega);
       InitialState& carried = all.emplace_back();
       carried.stage = stage;
       const auto add = [&](Index node, const Vec3& place) {

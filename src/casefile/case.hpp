@@ -138,6 +138,7 @@ struct CaseRigidPart {
   std::optional<Located<Vec3>> inertia, centre_of_mass;
   std::optional<Vec3> products_of_inertia;
   std::optional<double> rigidity;
+  CaseGuide guide;
 };
 
 /// [[equation]]: the sum over the terms of coefficient x displacement is zero; the first term is the dependent one.

@@ -1,6 +1,7 @@
 // [[contact]]: what touches. Every kind has a struct of its own, and all of them one line in a list.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -53,6 +54,16 @@ struct CaseInterface {
   void check_scheme(const CaseScheme& scheme, const ContactPlace& at) const;
 };
 
+/// What guides hold a free rigid body by.
+struct CaseGuide {
+  std::optional<Located<std::array<bool, 3>>> blocked, blocked_turns;  ///< along the axes; about them
+  std::optional<Located<Vec3>> blocked_at;                             ///< the point that `blocked` holds
+
+  bool holds() const { return blocked || blocked_turns; }
+  bool holds_along(std::size_t axis) const { return blocked && (**blocked)[axis]; }
+  bool holds_about(std::size_t axis) const { return blocked_turns && (**blocked_turns)[axis]; }
+};
+
 /// A rigid body that moves freely, and turns where it has an inertia; or, without a mass, one that is led to turn.
 struct CaseRigidBody {
   std::optional<double> mass;
@@ -61,6 +72,7 @@ struct CaseRigidBody {
   std::optional<Located<Vec3>> angular_velocity;  ///< imposed; at the start with a mass
   std::optional<Vec3> centre_of_rotation;         ///< of one that is led; filled on reading
   std::optional<double> rigidity;                 ///< of the body that turns (TurningBody)
+  CaseGuide guide;
 };
 
 /// What rigid obstacles of all shapes have. `middle`, where a shape has it, is that of the shape, `middle_about` that

@@ -2,6 +2,7 @@
 
 #include "casefile/case.hpp"
 #include "casefile/contact_keys.hpp"
+#include "casefile/guide_keys.hpp"
 #include "math/vec3.hpp"
 
 namespace carom {
@@ -36,6 +37,8 @@ void add_body(SectionSchema<Kind>& s) {
       "mesh. Its strain, which the verdict limits to 1e-3, falls with the square; above 1 explicit runs pay with their "
       "step.",
       {.range = greater_than(0.0), .default_phrase = "0.5"});
+  add_guide_keys(
+      s, [](auto& kind) -> auto& { return kind.body.guide; });
   s.key_by("angular_velocity", [](auto& kind) -> auto& { return kind.body.angular_velocity; },
            "The obstacle turns, by this many radians per time about an axis of this direction through its "
            "centre_of_rotation: imposed, times function; of a free body with an inertia: at the start.",
@@ -57,7 +60,12 @@ void check_body(Kind& given, const Node& node, const ReadContext& at) {
     throw CaseError(body.inertia->where, at.at("inertia").path, "an inertia without a mass",
                     "the mass of a free body beside its inertia", "Add mass, or remove inertia.");
   }
-  for (const char* key : {"products_of_inertia", "centre_of_mass", "rigidity"}) {
+  check_guide(body.guide, at);
+  if (body.guide.blocked && !body.mass)
+    throw CaseError(body.guide.blocked->where, at.at("blocked").path, "blocked without a mass",
+                    "the mass of a free body",
+                    "Without a mass the obstacle rests, or moves by its velocity alone: remove blocked, or add mass.");
+  for (const char* key : {"products_of_inertia", "centre_of_mass", "rigidity", "blocked_turns", "blocked_at"}) {
     const Node* written = find(node, key);
     if (written == nullptr || body.inertia) continue;
     throw CaseError(written->where, at.at(key).path, fmt::format("{} without an inertia", key),
@@ -228,7 +236,9 @@ SectionSchema<CaseRigidSurface> contact_keys(std::type_identity<CaseRigidSurface
 
 void CaseObstacle::check_scheme(const CaseScheme& scheme, const ContactPlace& at) const {
   check_pressures(law, scheme, at);
-  if (has_inertia(*scheme.kind) || !body.inertia) return;
+  if (!body.inertia) return;
+  check_guide(body.guide, scheme, at.path);
+  if (has_inertia(*scheme.kind)) return;
   throw CaseError(body.inertia->where, at.path + ".inertia", "a body that turns, with statics",
                   "a scheme with inertia, or a free body without `inertia`, which does not turn",
                   "Nothing but contact holds the directions of such a body at rest.");

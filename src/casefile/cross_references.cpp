@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "casefile/document.hpp"
+#include "casefile/guide_keys.hpp"
 #include "math/vec3.hpp"
 #include "output/quantities.hpp"
 
@@ -156,6 +157,8 @@ void check_scheme(const Case& given, const CaseScheme& scheme) {
                     "an equation, with mass = \"modified\"", "a scheme whose nodes keep their mass",
                     "What an equation couples moves by its inertia: take another mass, or another scheme than "
                     "modified_mass.");
+  for (std::size_t i = 0; i < given.rigid_parts.size(); ++i)
+    check_guide(given.rigid_parts[i].guide, scheme, fmt::format("rigid_body[{}]", i));
   for (std::size_t i = 0; i < given.contacts.size(); ++i) {
     const CaseContact& contact = given.contacts[i];
     const ContactPlace at{contact, fmt::format("contact[{}]", i)};

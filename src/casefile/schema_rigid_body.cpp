@@ -1,4 +1,5 @@
 #include "casefile/case_schema.hpp"
+#include "casefile/guide_keys.hpp"
 
 namespace carom {
 
@@ -6,6 +7,7 @@ namespace {
 
 /// Without cells everything has to be given; what only an inertia of one's own has is nothing without it.
 void check_rigid_body(CaseRigidPart& body, const Node&, const ReadContext& at) {
+  check_guide(body.guide, at);
   if (body.products_of_inertia && !body.inertia)
     throw CaseError(body.where, at.at("products_of_inertia").path, "products of inertia without moments",
                     "inertia beside them", "Add inertia, or leave them out: cells have their own.");
@@ -18,7 +20,7 @@ void check_rigid_body(CaseRigidPart& body, const Node&, const ReadContext& at) {
 
 SectionSchema<CaseRigidPart> rigid_body_section() {
   SectionSchema<CaseRigidPart> s(
-      "Cells that move as one rigid body, which turns freely. It has the mass and the inertia of its cells, or those "
+      "Cells that move as one rigid body, which moves and turns freely, or as its guide lets it. It has the mass and the inertia of its cells, or those "
       "that are given; contacts, loads, supports, initial velocities and probes take its faces and nodes as those of "
       "any part. Nodes that deformable parts share with it, and `nodes`, are joined to it. Its material gives the "
       "density and, to contact, the stiffness of its faces. For schemes with inertia.");
@@ -43,6 +45,8 @@ SectionSchema<CaseRigidPart> rigid_body_section() {
         "Frequency at which the axes of the body vibrate about right angles, over the highest of the mesh. Its strain, "
         "which the verdict limits to 1e-3, falls with the square; above 1 explicit runs may pay with their step.",
         {.range = greater_than(0.0), .default_phrase = "3"});
+  add_guide_keys(
+      s, [](auto& body) -> auto& { return body.guide; });
   s.finish = check_rigid_body;
   return s;
 }

@@ -308,8 +308,8 @@ constexpr std::array<KeywordEntry, 167> kKeywords{{
      .parameters = "ELSET,NSET,REF NODE,ROT NODE,ANALYTICAL SURFACE,TIE NSET,PIN NSET,POSITION",
      .noted = "ISOTHERMAL",
      .meaning =
-         "A surface of faces that moves and turns with its reference node, or is free where that has a *MASS. It is met by "
-         "*CONTACT PAIR, as the second surface, or by general contact. Of solids: a [[rigid_body]] of parts; TIE NSET and "
+         "A surface of faces that moves and turns with its reference node, or, where that has a *MASS, is free in what "
+         "*BOUNDARY does not hold. It is met by *CONTACT PAIR, as the second surface, or by general contact. Of solids: a [[rigid_body]] of parts; TIE NSET and "
          "PIN NSET: nodes that are joined to it; NSET: nodes alone. ROT NODE: its motions are the turns."},
     {.name = "ROTARY INERTIA",
      .use = model,

@@ -59,6 +59,8 @@ class Actions {
     remove_replaced();
     if (!gravity_.empty()) refuse_partial_gravity();
     for (const Acting& acting : all_) t_.errors.attempt([&] { write(acting); });
+    for (const Led& led : led_)
+      if (!led.acting.body->is_guided()) write_support(led.acting, led.size, led.function);
   }
 
  private:
@@ -317,13 +319,12 @@ class Actions {
       write_load(acting, size, function);
   }
 
-  /// All nodes of a body of cells or nodes go along; what they cannot say translate_rigid_parts refuses.
+  /// All nodes of a body of cells or nodes go along, unless translate_rigid_parts gives it a guide.
   void lead_rigid(DeckRigidBody& body, const Acting& acting, double size, const std::string& function) {
     body.motion.at(static_cast<std::size_t>(acting.component)) = DeckRigidBody::Motion{size, function, acting.where};
     if (acting.component >= 3) return;
-    Acting of_all = acting;
-    of_all.group = body.group;
-    write_support(of_all, size, function);
+    led_.push_back({acting, size, function});
+    led_.back().acting.group = body.group;
   }
 
   /// A rigid surface is moved by its velocity: that of a displacement is the slope of its polygon.
@@ -426,6 +427,13 @@ class Actions {
   const Amplitude* amplitude_ = nullptr;
   const DeckKeyword* keyword_ = nullptr;  ///< at hand
   std::vector<Acting> all_;
+  /// What is imposed on bodies of cells or nodes along an axis.
+  struct Led {
+    Acting acting;
+    double size = 0.0;
+    std::string function;
+  };
+  std::vector<Led> led_;
   std::set<std::pair<std::string, std::size_t>> renewed_;
   std::map<std::string, std::pair<std::vector<double>, std::vector<double>>> functions_;
 };

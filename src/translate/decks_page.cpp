@@ -83,13 +83,14 @@ A `*RIGID BODY` of faces (R3D3, R3D4, in the plane R2D2, around an axis RAX2) is
   freedom 4 to 6, in the plane 6, turn it about the node, through finite angles, by one amplitude for all: the axis keeps its
   direction and travels with the node. About what is not imposed it does not turn. Behind its last imposed displacement
   or turn it stays.
-- Or the node is free along all axes and has a `*MASS`, at which the centre of mass is. With a `*ROTARY INERTIA` it turns
-  freely, in the plane by I33; without, or where `*BOUNDARY` holds all of its turns, it does not.
-  `*INITIAL CONDITIONS` may give its velocity and angular velocity (degrees of freedom 4 to 6, or `ROTATING VELOCITY`).
+- Or the node has a `*MASS`, at which the centre of mass is, and is free along the axes that `*BOUNDARY` does not hold: all, or
+  some, as of the guided plate of a drop tower. With a `*ROTARY INERTIA` it turns freely (in the plane by I33), or, where
+  `*BOUNDARY` holds its turns about two axes, about the third alone, as on a hinge; without one, or where all of its turns are
+  held, it does not turn. `*INITIAL CONDITIONS` may give its velocity and angular velocity (degrees of freedom 4 to 6, or
+  `ROTATING VELOCITY`).
 
-What is neither is refused: a node that is free along or about some of the axes only, or held in its place and, with a
-`*ROTARY INERTIA`, free to turn. One with a `*MASS` that is held along some axes, as of a guided hammer, may be accepted: it is
-free along all of them.
+What is neither is refused: a node that is moved along some axes and free along others, one without a `*MASS` that is held along
+some axes only, and one that is held about one axis alone, which has no axis to turn about.
 
 In a pair it is met from the side of its normal: by the right-hand rule, of R2D2 and RAX2 a quarter turn counter-clockwise
 from the first node to the second; `SNEG` names the other side. What would pass from behind is refused. Of R3D3 and
@@ -121,10 +122,13 @@ to the cells', is refused unless accepted.
 Without a `*ROTARY INERTIA` its turns have to be held, without a mass its motion has to be imposed as a whole: then its nodes
 have supports alone. A `*COUPLING` to the reference node of a body of solids joins its nodes to that.
 
-`*BOUNDARY` on a reference node becomes supports of all nodes of the body. Along one axis these also hold the turns about the two
-others, along two axes all turns. So there may be imposed: nothing; 1 with 5 and 6, 2 with 4 and 6, or 3 with 4 and 5, as
-`XSYMM` and its like do; two or three of 1 to 3 with 4 to 6. Displacements, velocities and accelerations may be
-other than 0, turns not. `*CLOAD` acts where the reference node stands, and probes follow it. `*INITIAL CONDITIONS` at the reference node give its velocity and the angular velocity about it.
+`*BOUNDARY` on a reference node becomes supports of all nodes of the body where these say the same: along one axis they also hold
+the turns about the two others, along two axes all turns. So they are 1 with 5 and 6, 2 with 4 and 6, or 3 with 4 and 5, as `XSYMM`
+and its like, and two or three of 1 to 3 with 4 to 6; their displacements, velocities and accelerations may be other than 0.
+What is held otherwise is a guide of the body at the reference node, `blocked` and `blocked_turns`: hinges (1 to 3 with two of 4
+to 6), balls (`PINNED`), bodies that slide without turning (4 to 6). Turns that are held about one axis alone are refused, and
+turns that are imposed. `*CLOAD` acts where the reference node stands, and probes follow it. `*INITIAL CONDITIONS` at the
+reference node give its velocity and the angular velocity about it.
 
 ## Temperatures
 

@@ -187,6 +187,35 @@ void refuse_leaving_space(const DeckRigidBody& body, const Components& component
   }
 }
 
+/// About one axis alone a body turns by its moment about that.
+bool has_one_axis(const DeckRigidBody& body) {
+  return body.count_imposed(3, 6) == 2;
+}
+
+/// Of the components that the space of a body has.
+void add_guide(const DeckRigidBody& body, TableMaker& section, const std::vector<std::size_t>& along,
+               const std::vector<std::size_t>& about) {
+  const auto held_of = [&](const std::vector<std::size_t>& components) {
+    std::vector<std::string> axes;
+    for (const std::size_t c : components)
+      if (body.motion[c]) axes.emplace_back(1, "xyz"[c % 3]);
+    return axes;
+  };
+  const auto where_of = [&](const std::vector<std::size_t>& components) {
+    return body.motion[*std::ranges::find_if(components, [&](std::size_t c) { return body.motion[c].has_value(); })]
+        ->where;
+  };
+  const std::vector<std::string> places = held_of(along), turns = held_of(about);
+  if (turns.size() == 1 && about.size() == 3)
+    body.keyword->fail(
+        "a rigid body that *BOUNDARY holds about " + turns[0] + " alone",
+        "turns that are held about no axis, about two, or about all",
+        "What turns about two axes and not about the third has no axis of its own: hold it about another "
+        "one, too.");
+  if (!places.empty()) section.add("blocked", texts_node(places, where_of(along)));
+  if (!turns.empty()) section.add("blocked_turns", texts_node(turns, where_of(about)));
+}
+
 /// A motion that is imposed: its vector times the function.
 struct Imposed {
   Vec3 vector{};
@@ -235,8 +264,8 @@ void add_led_body(Translation& t, const DeckRigidBody& body, const Components& c
   const std::size_t held = count_imposed(body, components.about);
   if (body.inertia && held < components.about.size())
     t.findings.refuse(*body.inertia->keyword, body.keyword->where,
-                      "a rigid body that is held in its place and not in its turns",
-                      "It would turn only as *BOUNDARY says.");
+                      "a rigid body without a *MASS that is held in its place and not in its turns",
+                      "It would turn only as *BOUNDARY says; with a *MASS it turns by its inertia.");
   if (turn.vector == Vec3{}) return t.findings.note(body.keyword->where, "the rigid body does not turn");
   contact.add("angular_velocity", vector_node(turn.vector, turn.where));
   contact.add("centre_of_rotation", vector_node(body.centre, turn.where));
@@ -252,7 +281,7 @@ void add_led_body(Translation& t, const DeckRigidBody& body, const Components& c
 /// In the plane nothing feels the moments about x and y.
 Vec3 moments_of(const DeckRigidBody& body) {
   const Vec3& given = body.inertia->moments;
-  return body.space == DeckRigidBody::Space::plane ? Vec3{given[2], given[2], given[2]} : given;
+  return body.space == DeckRigidBody::Space::plane ? Vec3{given[2], given[2], given[2]} : moments_in_guide(body);
 }
 
 void add_free_body(Translation& t, DeckRigidBody& body, const Components& components, TableMaker& contact) {
@@ -266,11 +295,9 @@ void add_free_body(Translation& t, DeckRigidBody& body, const Components& compon
                     "Impose its degrees of freedom 1 to 3, or give it a *ROTARY INERTIA.");
   contact.number("mass", *body.mass);
   if (body.initial_velocity) contact.vector("velocity", *body.initial_velocity);
-  const std::size_t held = count_imposed(body, components.about), all = components.about.size();
-  if (body.inertia && held > 0 && held < all)
-    keyword.fail(fmt::format("a free rigid body that is held about {} of 3 axes", held), "about all, or none",
-                 "Carom's free bodies turn about every axis or do not turn.");
-  if (!body.inertia || held == all) {
+  const bool turns = body.inertia && count_imposed(body, components.about) < components.about.size();
+  add_guide(body, contact, components.along, turns ? components.about : std::vector<std::size_t>{});
+  if (!turns) {
     if (body.initial_rotation)
       keyword.fail("an angular velocity of a rigid body that does not turn",
                    "a *ROTARY INERTIA of its reference node, which *BOUNDARY does not hold");
@@ -278,7 +305,7 @@ void add_free_body(Translation& t, DeckRigidBody& body, const Components& compon
   }
   const Location& where = body.inertia->keyword->where;
   contact.add("inertia", vector_node(moments_of(body), where));
-  if (body.space == DeckRigidBody::Space::solid && body.inertia->products != Vec3{})
+  if (body.space == DeckRigidBody::Space::solid && !has_one_axis(body) && body.inertia->products != Vec3{})
     contact.add("products_of_inertia", vector_node(body.inertia->products, where));
   contact.add("centre_of_mass", vector_node(body.centre, where));
   if (body.initial_rotation) contact.vector("angular_velocity", *body.initial_rotation);
@@ -353,25 +380,41 @@ DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group) {
   return found == t.rigid_bodies.end() ? nullptr : &*found;
 }
 
+void add_guide(const DeckRigidBody& body, TableMaker& section) {
+  const Components all = components_of(DeckRigidBody::Space::solid);
+  add_guide(body, section, all.along, all.about);
+  if (body.count_imposed(0, 3) > 0) section.vector("blocked_at", body.centre);
+}
+
+Vec3 moments_in_guide(const DeckRigidBody& body) {
+  const Vec3& given = body.inertia->moments;
+  if (!has_one_axis(body)) return given;
+  for (std::size_t c = 0; c < 3; ++c)
+    if (!body.motion[c + 3]) return {given[c], given[c], given[c]};
+  return given;
+}
+
 void add_rigid_motion(Translation& t, DeckRigidBody& body, TableMaker& contact) {
   ++body.contacts;
   const Components components = components_of(body.space);
   refuse_leaving_space(body, components);
   const std::size_t held = count_imposed(body, components.along), all = components.along.size();
-  if (held == all) return add_led_body(t, body, components, contact);
   const bool rests = std::ranges::all_of(
       components.along, [&](std::size_t c) { return !body.motion[c] || body.motion[c]->velocity == 0.0; });
-  if (held > 0 && body.mass && rests)
-    t.findings.refuse(*body.keyword, body.keyword->where,
-                      fmt::format("a reference node with a *MASS that is held along {} of {} axes", held, all),
-                      "It would be free along all of them.");
-  if (body.mass && rests) return add_free_body(t, body, components, contact);
-  body.keyword->fail(fmt::format("a reference node that is held along {} of {} axes", held, all),
-                     "all of them imposed, or none and a *MASS",
-                     std::string("Impose the others, or let it move along all of them") +
-                         (body.space == DeckRigidBody::Space::solid
-                              ? "; a *RIGID BODY of solids may be held along two axes and about all."
-                              : "."));
+  const bool turns_freely = body.inertia && count_imposed(body, components.about) < components.about.size() &&
+                            imposed(body, 3).vector == Vec3{};
+  if (body.mass && rests && (held < all || turns_freely)) return add_free_body(t, body, components, contact);
+  if (held == all) return add_led_body(t, body, components, contact);
+  if (body.mass)
+    body.keyword->fail(
+        fmt::format("a reference node with a *MASS that is moved along some axes and free along {} of {}", all - held,
+                    all),
+        "all axes imposed, or those that are not free held",
+        "*BOUNDARY gives the reference node a motion: impose the others, too, or let it be 0.");
+  body.keyword->fail(
+      fmt::format("a reference node without a *MASS that is held along {} of {} axes", held, all),
+      "a *MASS, by which it moves along the others, or all of them imposed",
+      "Give the reference node an element of TYPE=MASS with a *MASS, or impose the others by *BOUNDARY.");
 }
 
 }  // namespace carom

@@ -28,6 +28,12 @@ DeckRigidBody* turned_by(Translation& t, const std::string& node_group);
 /// The body that all cells of the group belong to, or nullptr.
 DeckRigidBody* body_of_cells(Translation& t, const std::string& cell_group);
 
+/// Adds what holds a body that is free otherwise, at its reference node. Throws CaseError for turns that are held about
+/// one axis alone.
+void add_guide(const DeckRigidBody& body, TableMaker& section);
+/// The moments of inertia that a body held so needs: about its one axis alone, where it has one.
+Vec3 moments_in_guide(const DeckRigidBody& body);
+
 /// Adds what the body does to the contact with its surface.
 void add_rigid_motion(Translation& t, DeckRigidBody& body, TableMaker& contact);
 

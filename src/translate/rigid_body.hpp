@@ -47,6 +47,23 @@ struct DeckRigidBody {
 
   bool is_obstacle() const { return group.empty(); }
   bool is_of_nodes() const { return cells.empty(); }
+  /// Components from `first` up to `end` that are imposed.
+  std::size_t count_imposed(std::size_t first, std::size_t end) const {
+    std::size_t count = 0;
+    for (std::size_t c = first; c < end; ++c) count += motion[c] ? 1U : 0U;
+    return count;
+  }
+  /// Is a body of cells or nodes held as supports of all of its nodes cannot say? Along one axis they also hold the
+  /// turns about the two others, along two axes all turns.
+  bool is_guided() const {
+    const std::size_t along = count_imposed(0, 3), about = count_imposed(3, 6);
+    if (along == 0 && about == 0) return false;
+    if (along >= 2 && about == 3) return false;
+    if (along == 1 && about == 2)
+      for (std::size_t c = 0; c < 3; ++c)
+        if (motion[c] && !motion[c + 3]) return false;
+    return true;
+  }
 };
 
 }  // namespace carom

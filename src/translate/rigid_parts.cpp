@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "math/vec3.hpp"
+#include "translate/rigid.hpp"
 #include "translate/translation.hpp"
 #include "translate/tree.hpp"
 
@@ -13,32 +14,20 @@ namespace carom {
 
 namespace {
 
-std::size_t count_held(const DeckRigidBody& body, std::size_t first, std::size_t end) {
-  return at(std::count_if(body.motion.begin() + static_cast<std::ptrdiff_t>(first),
-                          body.motion.begin() + static_cast<std::ptrdiff_t>(end),
-                          [](const auto& motion) { return motion.has_value(); }));
-}
-
-/// A support of all nodes of a body along one axis also holds the turns about the two others, of two axes all turns.
-void refuse_other_hinges(const DeckRigidBody& body) {
-  std::string held;
+/// Turns are held or free, and so is what a guide holds.
+void refuse_motions_in_guides(const DeckRigidBody& body) {
   for (std::size_t c = 0; c < body.motion.size(); ++c) {
-    if (!body.motion[c]) continue;
-    held += fmt::format("{}{}", held.empty() ? "" : ", ", c + 1);
-    if (c >= 3 && body.motion[c]->velocity != 0.0)
+    if (!body.motion[c] || body.motion[c]->velocity == 0.0) continue;
+    if (c >= 3)
       throw CaseError(body.motion[c]->where, "*BOUNDARY", "a turn that is imposed on a rigid body of cells or nodes",
                       "a turn that is held or free", "A rigid surface of R3D3 and R3D4 is turned as imposed.");
+    if (body.is_guided())
+      throw CaseError(
+          body.motion[c]->where, "*BOUNDARY",
+          fmt::format("a motion along {} of a rigid body of cells or nodes that a guide holds besides", "xyz"[c]),
+          "1 with 5 and 6, 2 with 4 and 6, 3 with 4 and 5, or two or three of 1 to 3 with all of 4 to 6",
+          "Impose or hold these degrees of freedom of its reference node, or let it rest along this one.");
   }
-  const std::size_t along = count_held(body, 0, 3), about = count_held(body, 3, 6);
-  if (along == 0 && about == 0) return;
-  if (along >= 2 && about == 3) return;
-  if (along == 1 && about == 2)
-    for (std::size_t c = 0; c < 3; ++c)
-      if (body.motion[c] && !body.motion[c + 3]) return;
-  body.keyword->fail(fmt::format("a reference node with degrees of freedom {} imposed", held),
-                     "none, or two or three of 1 to 3 with all of 4 to 6, or 1 with 5 and 6, 2 with 4 and 6, 3 with 4 "
-                     "and 5",
-                     "Supports act on all nodes of the body: along an axis they also hold the turns about the others.");
 }
 
 /// The parts whose cells are those of the body. Throws CaseError where a part has others too, or no part has some.
@@ -114,8 +103,8 @@ Vec3 any_inertia(const Translation& t, const DeckRigidBody& body) {
 
 /// false: it is no body, since its supports say all.
 bool add_given_inertia(Translation& t, const DeckRigidBody& body, TableMaker& section) {
-  if (count_held(body, 0, 6) == 6) return false;
-  const bool turns = count_held(body, 3, 6) < 3;
+  if (body.count_imposed(0, 6) == 6) return false;
+  const bool turns = body.count_imposed(3, 6) < 3;
   if (!body.mass || (turns && !body.inertia)) {
     const char* lacks = body.mass ? "*ROTARY INERTIA" : turns ? "*MASS and *ROTARY INERTIA" : "*MASS";
     t.findings.refuse(*body.keyword, body.keyword->where,
@@ -124,13 +113,14 @@ bool add_given_inertia(Translation& t, const DeckRigidBody& body, TableMaker& se
     return false;
   }
   section.number("mass", *body.mass).vector("centre_of_mass", body.centre);
-  section.vector("inertia", body.inertia ? body.inertia->moments : any_inertia(t, body));
-  if (body.inertia && body.inertia->products != Vec3{}) section.vector("products_of_inertia", body.inertia->products);
+  section.vector("inertia", body.inertia ? moments_in_guide(body) : any_inertia(t, body));
+  if (body.inertia && body.count_imposed(3, 6) < 2 && body.inertia->products != Vec3{})
+    section.vector("products_of_inertia", body.inertia->products);
   return true;
 }
 
 void add_rigid_part(Translation& t, const DeckRigidBody& body) {
-  refuse_other_hinges(body);
+  refuse_motions_in_guides(body);
   TableMaker section(body.keyword->where);
   section.text("name", body.name);
   if (body.is_of_nodes()) {
@@ -139,6 +129,7 @@ void add_rigid_part(Translation& t, const DeckRigidBody& body) {
     section.add("parts", texts_node(parts_of(t, body), body.keyword->where));
     refuse_added_mass(t, body);
   }
+  if (body.is_guided()) add_guide(body, section);
   if (!body.joined.empty()) section.text("nodes", body.joined);
   if (!is_of_a_part(t, body.reference)) section.text("points", t.mesh.names.node_sets.at(body.node));
   t.append("rigid_body", section.node());

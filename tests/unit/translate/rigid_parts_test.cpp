@@ -98,17 +98,38 @@ TEST(TranslateRigidParts, AreHeldBySupportsOfAllTheirNodes) {
   EXPECT_EQ(supports_of(case_from(with_body("99, ENCASTRE\n")), "UPPER"), (Names{"x", "y", "z"}));
   EXPECT_EQ(supports_of(case_from(with_body("99, 1, 2\n99, 4, 6\n")), "UPPER"), (Names{"x", "y"}));
   EXPECT_EQ(supports_of(case_from(with_body("99, YSYMM\n")), "UPPER"), (Names{"y"}));
-  const auto refusal = [](const std::string& held, const std::string& numbers) {
-    EXPECT_EQ(message_of(with_body(held)),
-              "x.inp:40: *RIGID BODY: found a reference node with degrees of freedom " + numbers +
-                  " imposed; expected none, or two or three of 1 to 3 with all of 4 to 6, or 1 with 5 and 6, 2 with 4 "
-                  "and 6, 3 with 4 and 5. Supports act on all nodes of the body: along an axis they also hold the "
-                  "turns about the others.");
+  for (const char* held : {"99, ENCASTRE\n", "99, 1, 2\n99, 4, 6\n", "99, YSYMM\n"})
+    EXPECT_FALSE(case_from(with_body(held)).rigid_parts[0].guide.holds()) << held;
+}
+
+// What supports of all nodes cannot say: the reference node is held where it stands, turns about two axes or all.
+TEST(TranslateRigidParts, AreHeldByAGuideWhereSupportsWouldHoldMore) {
+  using Axes = std::array<bool, 3>;
+  struct Row {
+    const char* held;
+    Axes along, about;
   };
-  refusal("99, PINNED\n", "1, 2, 3");
-  refusal("99, 4, 6\n", "4, 5, 6");
-  refusal("99, 1, 1\n99, 4, 5\n", "1, 4, 5");
-  refusal("99, 1, 2\n99, 5, 6\n", "1, 2, 5, 6");
+  for (const Row& row : {Row{"99, PINNED\n", {true, true, true}, {}}, Row{"99, 4, 6\n", {}, {true, true, true}},
+                         Row{"99, 1, 1\n99, 4, 5\n", {true, false, false}, {true, true, false}},
+                         Row{"99, 1, 2\n99, 5, 6\n", {true, true, false}, {false, true, true}}}) {
+    SCOPED_TRACE(row.held);
+    const Case made = case_from(with_body(row.held));
+    const CaseGuide& guide = made.rigid_parts[0].guide;
+    EXPECT_EQ(guide.blocked ? **guide.blocked : Axes{}, row.along);
+    EXPECT_EQ(guide.blocked_turns ? **guide.blocked_turns : Axes{}, row.about);
+    EXPECT_EQ(guide.blocked_at.has_value(), guide.blocked.has_value());
+    EXPECT_EQ(guide.blocked_at.value_or(Located<Vec3>{}).value, (guide.blocked ? Vec3{0.5, 0.5, 4.0} : Vec3{}));
+    EXPECT_EQ(supports_of(made, "UPPER"), std::vector<std::string>{});
+  }
+  EXPECT_EQ(
+      message_of(with_body("99, 1, 1\n99, 5, 5\n")),
+      "x.inp:40: *RIGID BODY: found a rigid body that *BOUNDARY holds about y alone; expected turns that are held "
+      "about no axis, about two, or about all. What turns about two axes and not about the third has no axis of "
+      "its own: hold it about another one, too.");
+  EXPECT_EQ(message_of(replaced(with_body("99, 4, 6\n"), "*CLOAD", "*BOUNDARY, TYPE=VELOCITY\n99, 3, 3, 9.\n*CLOAD")),
+            "x.inp:59: *BOUNDARY: found a motion along z of a rigid body of cells or nodes that a guide holds besides; "
+            "expected 1 with 5 and 6, 2 with 4 and 6, 3 with 4 and 5, or two or three of 1 to 3 with all of 4 to 6. "
+            "Impose or hold these degrees of freedom of its reference node, or let it rest along this one.");
 }
 
 TEST(TranslateRigidParts, AreMovedBySupportsOfAllTheirNodes) {

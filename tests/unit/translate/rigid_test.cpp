@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <vector>
 
@@ -131,21 +132,37 @@ const CaseFunction& function_named(const Case& made, const std::string& name) {
   return *found;
 }
 
-/// A free body moves along all axes: what guides it is lost where that is accepted.
-TEST(Translate, AGuidedRigidSurfaceIsFreeWhereThatIsAccepted) {
+using Axes = std::array<bool, 3>;
+
+/// Newton's laws along the axes that are left, and about the one that is left: the plate of a drop tower, and a flap.
+TEST(Translate, AReferenceNodeIsHeldAlongSomeAxesByAGuide) {
   const std::string mass = "*ELEMENT, TYPE=MASS, ELSET=M\n50, 99\n*MASS, ELSET=M\n2.5\n*BOUNDARY\n99, 1, 2\n99, 4, 6\n";
   const std::string deck = replaced(with_rigid_wall(mass), "FALLING, 3, -1000.", "FALLING, 3, -1000.\n99, 3, 20.");
-  const std::string refused = message_of(deck);
-  EXPECT_NE(refused.find("*RIGID BODY: a reference node with a *MASS that is held along 2 of 3 axes. It would be free"),
-            std::string::npos)
-      << refused;
-  const Case made = case_from(deck, {"RIGID BODY"});
-  EXPECT_EQ(*made.contacts[0].obstacle()->body.mass, 2.5);
-  EXPECT_EQ(*made.contacts[0].obstacle()->velocity, (Vec3{0.0, 0.0, 20.0}));
+  const CaseContact contact = case_from(deck).contacts[0];
+  const CaseObstacle& plate = *contact.obstacle();
+  EXPECT_EQ(*plate.body.mass, 2.5);
+  EXPECT_EQ(*plate.velocity, (Vec3{0.0, 0.0, 20.0}));
+  EXPECT_EQ(**plate.body.guide.blocked, (Axes{true, true, false}));
+  EXPECT_EQ(to_string(plate.body.guide.blocked->where), "x.inp:45");
+  EXPECT_FALSE(plate.body.inertia);
+  EXPECT_FALSE(plate.body.guide.blocked_turns);
+
+  const std::string inertia =
+      "*ELEMENT, TYPE=ROTARYI, ELSET=J\n51, 99\n*ROTARY INERTIA, ELSET=J\n0., 5., 0., 0.1, 0.2, 0.3\n";
+  const std::string hinge = replaced(replaced(mass, "99, 1, 2", "99, PINNED"), "99, 4, 6", "99, 4\n99, 6");
+  const CaseContact turned = case_from(with_rigid_wall(inertia + hinge)).contacts[0];
+  const CaseRigidBody& flap = turned.obstacle()->body;
+  EXPECT_EQ(**flap.guide.blocked, (Axes{true, true, true}));
+  EXPECT_EQ(**flap.guide.blocked_turns, (Axes{true, false, true}));
+  EXPECT_EQ(**flap.inertia, (Vec3{5.0, 5.0, 5.0}));  // about y alone
+  EXPECT_FALSE(flap.products_of_inertia);
+  EXPECT_FALSE(flap.guide.blocked_at);  // its centre of mass, where the reference node is
+
   const std::string led = replaced(deck, "*BOUNDARY\n99, 1, 2\n", "*BOUNDARY, TYPE=VELOCITY\n99, 1, 2, 5.\n");
-  EXPECT_NE(message_of(led, {"RIGID BODY"}).find("found a reference node that is held along 2 of 3 axes"),
-            std::string::npos)
-      << message_of(led, {"RIGID BODY"});
+  EXPECT_EQ(message_of(led),
+            "x.inp:38: *RIGID BODY: found a reference node with a *MASS that is moved along some axes and free along 1 "
+            "of 3; expected all axes imposed, or those that are not free held. *BOUNDARY gives the reference node a "
+            "motion: impose the others, too, or let it be 0.");
 }
 
 /// Abaqus keyword *RIGID BODY: POSITION=CENTER OF MASS moves the reference node there. The mass of a surface of faces
@@ -318,13 +335,11 @@ TEST(Translate, MotionsOfRigidBodiesThatCannotBeAreRefused) {
             "x.inp:49: *BOUNDARY: found a turn that is imposed on a rigid body that moves freely; expected a body that "
             "is held or moved along all axes, or turns freely too. Impose its degrees of freedom 1 to 3, or give it a "
             "*ROTARY INERTIA.");
-  EXPECT_EQ(refusal(with_free_wall("*BOUNDARY\n99, 4, 5\n")),
-            "x.inp:38: *RIGID BODY: found a free rigid body that is held about 2 of 3 axes; expected about all, or "
-            "none. Carom's free bodies turn about every axis or do not turn.");
-  EXPECT_EQ(refusal(with_free_wall("*BOUNDARY\n99, 1, 3\n")),
-            "x.inp: found something that Carom does not carry over; expected a deck that loses nothing of its physics. "
-            "--accept \"ROTARY INERTIA\" runs without:\n  x.inp:38: *ROTARY INERTIA: a rigid body that is held in its "
-            "place and not in its turns. It would turn only as *BOUNDARY says.");
+  EXPECT_EQ(
+      refusal(with_free_wall("*BOUNDARY\n99, 5\n")),
+      "x.inp:38: *RIGID BODY: found a rigid body that *BOUNDARY holds about y alone; expected turns that are held "
+      "about no axis, about two, or about all. What turns about two axes and not about the third has no axis of "
+      "its own: hold it about another one, too.");
   EXPECT_EQ(refusal(with_free_wall("*INITIAL CONDITIONS, TYPE=VELOCITY\n99, 6, 30.\n*BOUNDARY\n99, 4, 6\n")),
             "x.inp:38: *RIGID BODY: found an angular velocity of a rigid body that does not turn; expected a *ROTARY "
             "INERTIA of its reference node, which *BOUNDARY does not hold");
@@ -335,8 +350,9 @@ TEST(Translate, MotionsOfRigidBodiesThatCannotBeAreRefused) {
             "x.inp:29: *BOUNDARY: found a motion of degree of freedom 6 of a rigid body around an axis; expected 2 "
             "alone. What moves otherwise is no ring: model it in three dimensions.");
   EXPECT_EQ(refusal(plane_deck("R2D2", "CPE4", "*BOUNDARY\n99, 1\n")),
-            "x.inp:17: *RIGID BODY: found a reference node that is held along 1 of 2 axes; expected all of them "
-            "imposed, or none and a *MASS. Impose the others, or let it move along all of them.");
+            "x.inp:17: *RIGID BODY: found a reference node without a *MASS that is held along 1 of 2 axes; expected a "
+            "*MASS, by which it moves along the others, or all of them imposed. Give the reference node an element of "
+            "TYPE=MASS with a *MASS, or impose the others by *BOUNDARY.");
 }
 
 // The tensor is given along the axes of the part, which the instance turns.
