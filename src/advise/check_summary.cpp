@@ -164,11 +164,10 @@ std::string describe_driven(const Stage& stage, const Simulation& s) {
   const DrivenCells& driven = stage.driven();
   if (driven.count == 0) return {};
   const CellRef& cell = s.solid().cells()[static_cast<std::size_t>(driven.first)];
-  const CellBlock& block = s.mesh().blocks[static_cast<std::size_t>(cell.block)];
   return fmt::format(
       "  driven    {} strained by supports alone, as cell {}: free, the stable step would be {}; for {:g} % of strain "
       "a step {}\n",
-      count_of(driven.count, "cell"), block.file_numbers[static_cast<std::size_t>(cell.cell)],
+      count_of(driven.count, "cell"), s.mesh().cell_label(cell),
       step_text(stable_step_of(stability_limit(stage.settings()), driven.omega_max_squared)),
       100.0 * most_imposed_strain, step_text(driven.dt_strain));
 }

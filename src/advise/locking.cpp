@@ -321,7 +321,7 @@ std::string remedy_of_simplex(const Part& part, const Mesh& mesh) {
   return fmt::format(
       "mesh the part without the fan about node {}, which has {} neighbours and {} cells where nodal cells "
       "have at most {} and {}",
-      mesh.node_numbers[at(valence.node)], valence.neighbours, valence.cells, most_neighbours, most_patch_cells);
+      mesh.node_label(valence.node), valence.neighbours, valence.cells, most_neighbours, most_patch_cells);
 }
 
 std::string constant_volume_warning(const Part& part, const Mesh& mesh) {

@@ -64,16 +64,65 @@ void print_to_terminal(std::FILE* stream, std::string_view text) {
   std::fputs((shows_colours(stream) ? with_colours(safe) : safe).c_str(), stream);
 }
 
-std::string printable(std::string_view text) {
-  constexpr std::size_t kMost = 40;
-  std::string result(1, '\'');
-  for (const char c : text.substr(0, kMost)) {
-    if (c >= 32 && c < 127)
+namespace {
+
+/// Bytes of the character of UTF-8 that begins the text (RFC 3629); 0 where none does.
+std::size_t character_length(std::string_view text) {
+  const auto first = static_cast<unsigned char>(text[0]);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xc2 ? 0
+                             : first < 0xe0 ? 2
+                             : first < 0xf0 ? 3
+                             : first < 0xf5 ? 4
+                                            : 0;
+  if (length == 0 || text.size() < length) return 0;
+  const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xc0U) == 0x80U; };
+  return std::all_of(text.begin() + 1, text.begin() + static_cast<std::ptrdiff_t>(length), goes_on) ? length : 0;
+}
+
+/// U+0000 to U+001F, and U+007F to U+009F.
+bool is_control(std::string_view character) {
+  const auto first = static_cast<unsigned char>(character[0]);
+  return first < 0x20 || first == 0x7f || (first == 0xc2 && static_cast<unsigned char>(character[1]) < 0xa0);
+}
+
+}  // namespace
+
+std::string as_utf8(std::string_view text) {
+  std::string result;
+  bool is_utf8 = true;
+  for (std::size_t i = 0, length = 0; i < text.size() && is_utf8; i += length) {
+    length = character_length(text.substr(i));
+    is_utf8 = length > 0;
+    if (is_utf8) result += is_control(text.substr(i, length)) ? "?" : text.substr(i, length);
+  }
+  if (is_utf8) return result;
+  result.clear();
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || (byte >= 0x7f && byte < 0xa0))
+      result += '?';
+    else if (byte < 0x80)
       result += c;
     else
-      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(c));
+      result += {static_cast<char>(0xc0U | byte >> 6U), static_cast<char>(0x80U | (byte & 0x3fU))};
   }
-  return result + (text.size() > kMost ? "...'" : "'");
+  return result;
+}
+
+std::string printable(std::string_view text) {
+  constexpr std::size_t most = 40;
+  std::string result(1, '\'');
+  std::size_t i = 0;
+  while (i < text.size()) {
+    const std::size_t length = character_length(text.substr(i));
+    if (i + std::max<std::size_t>(length, 1) > most) break;
+    if (length == 0 || is_control(text.substr(i, length)))
+      result += fmt::format("\\x{:02x}", static_cast<unsigned char>(text[i++]));
+    else
+      result += text.substr(i, length), i += length;
+  }
+  return result + (i < text.size() ? "...'" : "'");
 }
 
 }  // namespace carom

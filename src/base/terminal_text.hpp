@@ -22,7 +22,10 @@ std::string with_colours(std::string_view text);
 /// Prints the text as terminal_text has it, with colours where the stream shows them.
 void print_to_terminal(std::FILE* stream, std::string_view text);
 
-/// At most 40 characters of `text`, in quotes, with unprintable bytes as \xNN.
+/// The text where it is UTF-8 without control characters; these as ?, and what is no UTF-8 read as Latin-1.
+std::string as_utf8(std::string_view text);
+
+/// At most 40 bytes of `text`, in quotes, with control characters and what is no UTF-8 as \xNN.
 std::string printable(std::string_view text);
 
 }  // namespace carom

@@ -50,7 +50,7 @@ class Attachment {
 
  private:
   const Vec3& X(Index node) const { return mesh_.coordinates[static_cast<std::size_t>(node)]; }
-  std::int64_t number(Index node) const { return mesh_.node_numbers[static_cast<std::size_t>(node)]; }
+  std::string number(Index node) const { return mesh_.node_label(node); }
 
   void refuse_without_mass(const std::vector<Index>& nodes, const Parts& parts, const Located<std::string>& group,
                            const char* key) const {

@@ -44,6 +44,7 @@ class ModelBuilder {
   void build() {
     model_.parts = parts_.parts();
     model_.notes = parts_.notes();
+    note_turned_cells();
     model_.node_lengths = node_lengths(model_);
     model_.outer_facets = groups_.outer_facets();
     model_.motions = parts_.held();
@@ -70,6 +71,17 @@ class ModelBuilder {
   }
 
  private:
+  /// The reader mends cells that other programs refuse.
+  void note_turned_cells() {
+    const MeshReport& report = mesh_.report;
+    if (report.turned > 0)
+      model_.notes.push_back(
+          fmt::format("mesh: {} inside out by the order of {} nodes, which has been turned: cell {}{}",
+                      report.turned == 1 ? "1 cell was" : fmt::format("{} cells were", report.turned),
+                      report.turned == 1 ? "its" : "their", mesh_.cell_label(report.first_turned),
+                      report.turned == 1 ? "" : " and others"));
+  }
+
   TimeFunction function(const std::optional<Located<std::string>>& name, double amplitude) const {
     if (!name) return {{0.0}, {amplitude}};
     const auto found = std::find_if(case_.functions.begin(), case_.functions.end(),
@@ -166,8 +178,7 @@ class ModelBuilder {
   void refuse_outside_parts(Index node, const Located<std::string>& group) const {
     if (parts_.hold(node) || rigid_.hold(node) || has_point_mass(model_, node)) return;
     throw CaseError(group.where, "load.group",
-                    fmt::format("node {} of \"{}\", which belongs to no part",
-                                mesh_.node_numbers[static_cast<std::size_t>(node)], *group),
+                    fmt::format("node {} of \"{}\", which belongs to no part", mesh_.node_label(node), *group),
                     "nodes or faces of parts");
   }
 
@@ -446,8 +457,7 @@ class ModelBuilder {
       const Part* part = parts_.part_of({block, cell});
       if (part == nullptr) continue;
       throw CaseError(given.group.where, "contact.group",
-                      fmt::format("cell {} of \"{}\", which belongs to part \"{}\"",
-                                  mesh_.block(CellType::hexa8)->file_numbers[static_cast<std::size_t>(cell)],
+                      fmt::format("cell {} of \"{}\", which belongs to part \"{}\"", mesh_.cell_label({block, cell}),
                                   *given.group, part->name),
                       "interface cells that belong to no part");
     }

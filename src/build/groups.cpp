@@ -130,9 +130,10 @@ Groups::CellsByType Groups::group_cells(const Located<std::string>& name, const 
 std::string Groups::counted(const CellsByType& cells) const {
   std::string text;
   for (const auto& [type, list] : cells)
-    text += fmt::format(
-        "{}{} {} cell{} ({}{})", text.empty() ? "" : ", ", list.size(), carom::name(type), list.size() == 1 ? "" : "s",
-        mesh_.block(type)->file_numbers[static_cast<std::size_t>(list.front())], list.size() == 1 ? "" : " and others");
+    text += fmt::format("{}{} {} cell{} ({}{})", text.empty() ? "" : ", ", list.size(), carom::name(type),
+                        list.size() == 1 ? "" : "s",
+                        mesh_.cell_label(mesh_.block(type)->file_numbers[static_cast<std::size_t>(list.front())]),
+                        list.size() == 1 ? "" : " and others");
   return text;
 }
 

@@ -213,7 +213,7 @@ void refuse_other_places(const Case& given, const Mesh& mesh, const std::vector<
         throw CaseError(
             motion.amplitude.where, fmt::format("support[{}].displacement", i),
             fmt::format("{} along {} at t = 0, where the initial state has node {} at {}", begin,
-                        "xyz"[motion.component], mesh.node_numbers[static_cast<std::size_t>(n)], taken),
+                        "xyz"[motion.component], mesh.node_label(n), taken),
             fmt::format("a displacement that begins where the state is, to {:.1g} of the size of the mesh", rounding),
             "Displacements count from the undeformed mesh: let the function begin with that value. Imposed "
             "velocities, and blocked components, begin wherever the nodes are.");

@@ -21,7 +21,7 @@ void add_component(const Located<std::string>& text, std::size_t c, const Mesh& 
     if (!std::isfinite(value))
       throw CaseError(text.where, "initial.velocity_field",
                       fmt::format("\"{}\" = {} at node {}, ({:.6g}, {:.6g}, {:.6g})", *text, value,
-                                  mesh.node_numbers[node], X[0], X[1], X[2]),
+                                  mesh.node_label(static_cast<Index>(node)), X[0], X[1], X[2]),
                       "a finite number at every node");
     velocity[k][c] += value;
   }

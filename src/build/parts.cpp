@@ -207,10 +207,11 @@ void Parts::add(const CasePart& wanted, Part part) {
   for (const Index cell : part.cells) {
     Index& owner = part_of_cell_[block][at(cell)];
     if (owner >= 0)
-      throw CaseError(wanted.cells.where, "part.cells",
-                      fmt::format("cell {} in part \"{}\" and in part \"{}\"",
-                                  mesh_.blocks[block].file_numbers[at(cell)], parts_[at(owner)].name, part.name),
-                      "every cell in one part only");
+      throw CaseError(
+          wanted.cells.where, "part.cells",
+          fmt::format("cell {} in part \"{}\" and in part \"{}\"",
+                      mesh_.cell_label(mesh_.blocks[block].file_numbers[at(cell)]), parts_[at(owner)].name, part.name),
+          "every cell in one part only");
     owner = static_cast<Index>(parts_.size());
     const Hold hold = dimension(part.type) == 3 ? Hold::solid : Hold::plane_or_bar;
     for (const Index n : nodes_of_cell(part, cell)) holds_node_[at(n)] = std::max(holds_node_[at(n)], hold);
@@ -223,10 +224,10 @@ void Parts::add(const CasePart& wanted, Part part) {
 
 void Parts::refuse_cell(const Part& part, Index cell, const Located<std::string>& group, const std::string& found,
                         const std::string& expected) const {
-  throw CaseError(
-      group.where, "part.cells",
-      fmt::format("cell {} ({}) {}", mesh_.block(part.type)->file_numbers[at(cell)], carom::name(part.type), found),
-      expected);
+  throw CaseError(group.where, "part.cells",
+                  fmt::format("cell {} ({}) {}", mesh_.cell_label(mesh_.block(part.type)->file_numbers[at(cell)]),
+                              carom::name(part.type), found),
+                  expected);
 }
 
 void Parts::check_plane(const Part& part, const Located<std::string>& group) const {
@@ -254,7 +255,7 @@ void Parts::check_axis(const Part& part, const Located<std::string>& group) cons
     for (const Index n : nodes_of_cell(part, cell))
       if (mesh_.coordinates[at(n)][0] < -tolerance)
         refuse_cell(part, cell, group,
-                    fmt::format("with node {} at x = {:.6g}", mesh_.node_numbers[at(n)], mesh_.coordinates[at(n)][0]),
+                    fmt::format("with node {} at x = {:.6g}", mesh_.node_label(n), mesh_.coordinates[at(n)][0]),
                     "x >= 0, since section = \"axisymmetric\" turns about the y axis");
 }
 
@@ -325,7 +326,7 @@ Surface Parts::surface(const std::vector<OuterFacet>& facets, const Location& wh
       if (dimension(block.type) == 3) continue;
       throw CaseError(where, key,
                       fmt::format("the boundary of cell {} ({}), which belongs to no part",
-                                  block.file_numbers[at(outer.cell.cell)], carom::name(block.type)),
+                                  mesh_.cell_label(outer.cell), carom::name(block.type)),
                       "faces, edges or ends of parts");
     }
     if (first == nullptr) first = part;

@@ -71,7 +71,7 @@ void refuse_faces_of_parts(const Case& given, const Model& model) {
       const Located<std::string>& surface = *given.contacts[c].own_cells();
       throw CaseError(surface.where, "contact.surface",
                       fmt::format("faces of a part that can move in \"{}\", such as that of node {}", *surface,
-                                  model.mesh->node_numbers[static_cast<std::size_t>(facet[0])]),
+                                  model.mesh->node_label(facet[0])),
                       "faces that belong to no part, or to one that is held",
                       "A rigid surface stays where it is; contact with a part is kind = \"pair\".");
     }

@@ -54,7 +54,7 @@ class RigidParts {
   void add(const CaseRigidPart& given);
   void find_nodes(Body& body);
   TurningBody turning_body(const CaseRigidPart& given) const;
-  std::int64_t number(Index node) const { return mesh_.node_numbers[static_cast<std::size_t>(node)]; }
+  std::string number(Index node) const { return mesh_.node_label(node); }
 
   const Case& case_;
   const Mesh& mesh_;

@@ -237,8 +237,8 @@ void Simulation::refuse_buried_facets(std::size_t c, const State& state) const {
       contact.where, "contact",
       fmt::format("{} facets of \"{}\" deep inside of another body at the start, such as that of node {} at "
                   "({:.4g}, {:.4g}, {:.4g}) inside of {} {}",
-                  buried.size(), *contact.name, mesh_->node_numbers[static_cast<std::size_t>(facet[0])], x[0], x[1],
-                  x[2], name(block.type), block.file_numbers[static_cast<std::size_t>(cell.cell)]),
+                  buried.size(), *contact.name, mesh_->node_label(facet[0]), x[0], x[1], x[2], name(block.type),
+                  mesh_->cell_label(cell)),
       "bodies that are apart or just touch",
       "Is one body placed on the wrong side of the other? Contact sees overlaps of one facet's size at most.");
 }

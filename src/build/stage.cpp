@@ -216,7 +216,7 @@ void Stage::refuse_massless_contact() const {
       const CaseContact& contact = context_.given.contacts[static_cast<std::size_t>(rows.source[r])];
       throw CaseError(contact.group().where, "contact.group",
                       fmt::format("node {} of \"{}\", which belongs to no part and is not held in x, y and z",
-                                  context_.mesh.node_numbers[static_cast<std::size_t>(n)], *contact.group()),
+                                  context_.mesh.node_label(n), *contact.group()),
                       "nodes with mass, or supports on all three components",
                       "Put the cells in a [[part]], or block the node by a [[support]].");
     }

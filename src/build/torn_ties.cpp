@@ -56,7 +56,7 @@ void refuse_equations(const Case& given, const Model& model, const ContactGeomet
     const double now = x[3 * static_cast<std::size_t>(first.node) + static_cast<std::size_t>(first.component)];
     throw CaseError(place_of(given, model, rows, r), "equation",
                     fmt::format("initial {} that break {}: {:.4g} along {} at node {}", what, equation.name, now,
-                                "xyz"[first.component], model.mesh->node_numbers[static_cast<std::size_t>(first.node)]),
+                                "xyz"[first.component], model.mesh->node_label(first.node)),
                     fmt::format("{:.4g} there, as the other terms ask", now - rows.relative(r, x)[0]), remedy);
   }
 }

@@ -45,14 +45,14 @@ Marks used_cells(const Case& given, const Mesh& mesh, const Parts& parts) {
 std::string list_of(const Mesh& mesh, const Marks& used) {
   struct Some {
     std::size_t count = 0;
-    std::int64_t first = 0;
+    std::string first;
   };
   std::map<std::pair<std::string, CellType>, Some> found;
   std::vector<std::vector<char>> named;
   for (const std::vector<char>& marks : used) named.push_back(marks);
   const auto add = [&](const std::string& group, std::size_t block, std::size_t cell) {
     Some& some = found[{group, mesh.blocks[block].type}];
-    if (some.count++ == 0) some.first = mesh.blocks[block].file_numbers[cell];
+    if (some.count++ == 0) some.first = mesh.cell_label(CellRef{static_cast<Index>(block), static_cast<Index>(cell)});
   };
   for (const auto& [name, cells] : mesh.cell_groups) {
     for (const CellRef& cell : cells) {
@@ -83,7 +83,10 @@ void refuse_unused_cells(const Case& given, const Mesh& mesh, const Parts& parts
   const Location& where = given.mesh.file->empty() ? given.mesh.where : given.mesh.file.where;
   throw CaseError(where, "mesh", "cells that nothing takes: " + list_of(mesh, used),
                   "every solid, free face and free line in a [[part]], an interface or a rigid surface",
-                  "Give them a part, or say mesh.unused = \"ignore\" if the run is meant to go without them.");
+                  mesh.report.format.starts_with("deck")
+                      ? "Faces of a deck belong to a *RIGID BODY that a contact meets: give them one, or take their "
+                        "*ELEMENT out of the deck."
+                      : "Give them a part, or say mesh.unused = \"ignore\" if the run is meant to go without them.");
 }
 
 }  // namespace carom

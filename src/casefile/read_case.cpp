@@ -12,6 +12,7 @@
 #include "casefile/cross_references.hpp"
 #include "casefile/read_toml.hpp"
 #include "deck/deck.hpp"
+#include "deck/foreign.hpp"
 
 namespace carom {
 
@@ -118,7 +119,7 @@ Case read_case(const std::string& path, CaseErrors& errors) {
     throw CaseError({path, 0, 0}, "", "a mesh file", "a case file (.toml)",
                     "`carom mesh` describes it; a case names it in [mesh] as file = \"...\".");
   }
-  if (looks_like_dyna(text)) refuse_dyna({path, 0, 0});
+  refuse_foreign(text, path);
   if (looks_like_deck(text)) {
     throw CaseError({path, 0, 0}, "", "a deck of Abaqus or CalculiX", "a case file (.toml)",
                     "`carom convert` makes a case of it; `carom run` and `carom check` also take it as it is.");

@@ -404,7 +404,7 @@ std::string ContactGeometry::describe(const ConstraintRows& rows, std::size_t r)
   const std::string& name = name_of(impl_->model.contacts[static_cast<std::size_t>(rows.source[r])]);
   const Vec3& x = rows.position[r];
   const Index node = rows.begin[r] < rows.begin[r + 1] ? rows.node[static_cast<std::size_t>(rows.begin[r])] : -1;
-  const std::string at = node < 0 ? "" : fmt::format("node {} ", impl_->model.mesh->node_numbers[node]);
+  const std::string at = node < 0 ? "" : fmt::format("node {} ", impl_->model.mesh->node_label(node));
   return fmt::format("contact \"{}\", {}at ({:.4g}, {:.4g}, {:.4g})", name, at, x[0], x[1], x[2]);
 }
 

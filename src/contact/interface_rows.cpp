@@ -151,7 +151,7 @@ std::unique_ptr<RowMaker> interface_rows(const Model& model, const InterfaceCont
     if (!faces) {
       throw std::invalid_argument(fmt::format(
           "contact \"{}\": cell {} is not of zero thickness; the two opposite faces of an interface cell coincide",
-          contact.name, hexas.file_numbers[static_cast<std::size_t>(cell)]));
+          contact.name, mesh.cell_label(hexas.file_numbers[static_cast<std::size_t>(cell)])));
     }
     put_part_above(centroids, *faces);
     const bool turn = normal_is_inverted(centroids, *faces, face_points(mesh, faces->lower)[0]);

@@ -218,8 +218,8 @@ class TieMaker {
     return fmt::format(
         "{} of {} slave nodes are farther from the master than {}, the farthest, node {} at ({:.4g}, {:.4g}, {:.4g}), "
         "by {:.4g}, which is {:.3g} facet sizes",
-        far, far + joined + rows.size(), limit, model_.mesh->node_numbers[static_cast<std::size_t>(farthest_)], x[0],
-        x[1], x[2], distance_, size_ > 0.0 ? distance_ / size_ : std::numeric_limits<double>::infinity());
+        far, far + joined + rows.size(), limit, model_.mesh->node_label(farthest_), x[0], x[1], x[2], distance_,
+        size_ > 0.0 ? distance_ / size_ : std::numeric_limits<double>::infinity());
   }
 
  private:
@@ -321,7 +321,7 @@ void refuse_shared_nodes(const Model& model, const TieContact& contact) {
   throw std::invalid_argument(fmt::format(
       "contact \"{}\": {} nodes that both surfaces have, such as node {}, which would hold when the tie has "
       "torn; give each body nodes of its own there",
-      contact.name, shared.size(), model.mesh->node_numbers[static_cast<std::size_t>(*shared.begin())]));
+      contact.name, shared.size(), model.mesh->node_label(*shared.begin())));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "base/terminal_text.hpp"
 #include "base/text_lines.hpp"
+#include "deck/foreign.hpp"
 #include "deck/keyword_table.hpp"
 
 namespace carom {
@@ -138,7 +139,8 @@ class DeckReader {
       keyword.fail(printable(value), "a closing quotation mark", "Names with blanks stand in \"quotes\".");
     const auto is_plain = [](char c) { return c >= 32 && c < 127; };
     if (!std::all_of(value.begin(), value.end(), is_plain) || !std::all_of(name.begin(), name.end(), is_plain))
-      keyword.fail(printable(text), "letters of ASCII", "Rename it.");
+      keyword.fail(printable(as_utf8(text)), "letters of ASCII, without umlauts and accents",
+                   "Rename it, wherever the deck has it.");
     return {entry != nullptr ? parameter_name(*entry, name) : without_blanks(name), without_quotes(value)};
   }
 
@@ -200,21 +202,8 @@ bool looks_like_deck(std::string_view bytes) {
   return false;
 }
 
-bool looks_like_dyna(std::string_view bytes) {
-  for (std::size_t at = 0; at < bytes.size();) {
-    const std::string_view line = trimmed(take_line(bytes, at));
-    if (!line.empty() && line[0] != '$') return line.starts_with("*KEYWORD");
-  }
-  return false;
-}
-
-void refuse_dyna(const Location& where) {
-  throw CaseError(where, "", "a deck of LS-DYNA", "a deck of Abaqus or CalculiX, or a case file (.toml)",
-                  "Bring the mesh by way of Gmsh or of an Abaqus deck (.inp), and write the rest as a case: "
-                  "docs/case_format.md has an example of each section.");
-}
-
 Deck read_deck(std::string bytes, const std::string& source, const IncludeReader& include) {
+  refuse_foreign(bytes, source);
   Deck deck;
   DeckReader(deck, include).read(std::move(bytes), source);
   return deck;

@@ -52,10 +52,6 @@ struct Deck {
 
 /// Does a file begin as a deck does: its first line that is no comment with * and a letter?
 bool looks_like_deck(std::string_view bytes);
-/// A deck of LS-DYNA, whose comments begin with "$" and whose first keyword is *KEYWORD?
-bool looks_like_dyna(std::string_view bytes);
-/// Says that it cannot be read, and what can.
-[[noreturn]] void refuse_dyna(const Location& where);
 
 /// Splits a deck into its keywords. Lines that end with a comma go on, upper and lower case are the same, ** begins
 /// a comment. `source` names the file in messages; *INCLUDE counts from its folder. Throws CaseError.

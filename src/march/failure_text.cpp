@@ -25,14 +25,13 @@ std::string worst_place(const System& s, const State& state) {
     if (!std::isfinite(speed)) break;
   }
   const Vec3& x = s.mesh.coordinates[worst];
-  std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}", s.mesh.node_numbers[worst],
-                                 x[0], x[1], x[2], fastest);
+  std::string text = fmt::format("worst node {} at ({:.4g}, {:.4g}, {:.4g}), speed {:.4g}",
+                                 s.mesh.node_label(static_cast<Index>(worst)), x[0], x[1], x[2], fastest);
   for (std::size_t k = 0; k < s.solid.cells().size(); ++k) {
     const auto nodes = s.solid.cells().nodes_of(k);
     if (std::find(nodes.begin(), nodes.end(), static_cast<Index>(worst)) == nodes.end()) continue;
     const CellRef cell = s.solid.cells()[k];
-    const CellBlock& block = s.mesh.blocks[static_cast<std::size_t>(cell.block)];
-    return text + fmt::format(", in cell {}", block.file_numbers[static_cast<std::size_t>(cell.cell)]);
+    return text + fmt::format(", in cell {}", s.mesh.cell_label(cell));
   }
   return text;
 }

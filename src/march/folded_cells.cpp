@@ -127,8 +127,7 @@ std::string describe_fold(const Simulation& simulation, const FlattestCorner& co
   return fmt::format(
       "cell {} of part \"{}\" at ({:.4g}, {:.4g}, {:.4g}) has folded: its volume at a corner is {:.3g} of "
       "that at rest. {}",
-      simulation.mesh().blocks[at(cell.block)].file_numbers[at(cell.cell)], part.name, centre[0], centre[1], centre[2],
-      corner.share, advice(part));
+      simulation.mesh().cell_label(cell), part.name, centre[0], centre[1], centre[2], corner.share, advice(part));
 }
 
 }  // namespace carom

@@ -26,13 +26,12 @@ std::string inside_out(const Simulation& simulation, std::span<const double> u, 
   }
   const CellRef cell = solid.cells()[static_cast<std::size_t>(k)];
   const Part* part = simulation.model().part_of(cell);
-  const CellBlock& block = simulation.mesh().blocks[at(cell.block)];
   return fmt::format(
       "cell {} of part \"{}\" at ({:.4g}, {:.4g}, {:.4g}) turns inside out: it is crushed or sheared beyond what its "
       "shape can follow. distortion_control = 0.1, finer cells there, a law that stiffens enough, a lower speed or "
       "load, or a stiffer contact "
       "that spreads the load help; smaller steps (time.safety, time.step) where it happens at once",
-      block.file_numbers[at(cell.cell)], part == nullptr ? "" : part->name, centre[0], centre[1], centre[2]);
+      simulation.mesh().cell_label(cell), part == nullptr ? "" : part->name, centre[0], centre[1], centre[2]);
 }
 
 }  // namespace carom

@@ -98,8 +98,7 @@ void OverlapWatch::look(const State& state, Folds folds) {
 std::string OverlapWatch::names() const {
   const Model& model = simulation_.model();
   const Part& own = part_at(model, worst_.node);
-  const std::string node = fmt::format(
-      "node {} of part \"{}\"", simulation_.mesh().node_numbers[static_cast<std::size_t>(worst_.node)], own.name);
+  const std::string node = fmt::format("node {} of part \"{}\"", simulation_.mesh().node_label(worst_.node), own.name);
   if (worst_.contact >= 0) {
     const std::string& contact = std::visit([](const auto& c) -> const std::string& { return c.name; },
                                             model.contacts[static_cast<std::size_t>(worst_.contact)]);

@@ -33,13 +33,12 @@ const Part& RotationWatch::turned_part(const Rotation& rotation) const {
 
 std::string RotationWatch::describe(const Rotation& rotation) const {
   const CellRef cell = simulation_.solid().cells()[static_cast<std::size_t>(rotation.cell)];
-  const CellBlock& block = simulation_.mesh().blocks[static_cast<std::size_t>(cell.block)];
   const Part& part = turned_part(rotation);
   const double stress = stress_of_rotation(part.material.at_rest(), part.section, rotation.angle);
   return fmt::format(
       "cell {} of part \"{}\" has turned by {:.3g} degrees, which its small-strain law takes for a "
       "stress of about {:.3g}",
-      block.file_numbers[static_cast<std::size_t>(cell.cell)], part.name, rotation.angle / degree, stress);
+      simulation_.mesh().cell_label(cell), part.name, rotation.angle / degree, stress);
 }
 
 void RotationWatch::see(const StepView& view) {

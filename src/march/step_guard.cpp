@@ -37,8 +37,8 @@ const std::string& contact_name(const Model& model, Index contact) {
 std::string row_place(const System& system, const Model& model, const ConstraintRows& rows, std::size_t r) {
   const auto node = static_cast<std::size_t>(rows.node[static_cast<std::size_t>(rows.begin[r])]);
   const Vec3& x = system.mesh.coordinates[node];
-  const std::string at =
-      fmt::format("at node {} ({:.4g}, {:.4g}, {:.4g})", system.mesh.node_numbers[node], x[0], x[1], x[2]);
+  const std::string at = fmt::format("at node {} ({:.4g}, {:.4g}, {:.4g})",
+                                     system.mesh.node_label(static_cast<Index>(node)), x[0], x[1], x[2]);
   if (rows.source[r] < 0) return at;
   return fmt::format("contact \"{}\" {}", contact_name(model, rows.source[r]), at);
 }
@@ -58,12 +58,10 @@ std::size_t worst_change(const ConstraintRows& rows, const State& begin, const S
 
 std::string cell_place(const System& system, Index cell) {
   const CellRef& ref = system.solid.cells()[static_cast<std::size_t>(cell)];
-  const CellBlock& block = system.mesh.blocks[static_cast<std::size_t>(ref.block)];
   const Vec3& x =
       system.mesh
           .coordinates[static_cast<std::size_t>(system.solid.cells().nodes_of(static_cast<std::size_t>(cell)).front())];
-  return fmt::format("cell {} at ({:.4g}, {:.4g}, {:.4g})", block.file_numbers[static_cast<std::size_t>(ref.cell)],
-                     x[0], x[1], x[2]);
+  return fmt::format("cell {} at ({:.4g}, {:.4g}, {:.4g})", system.mesh.cell_label(ref), x[0], x[1], x[2]);
 }
 
 }  // namespace

@@ -48,8 +48,9 @@ class DeckMeshReader {
       attempt([&] { make_general_contact(); });
       name_surfaces();
     }
+    for (const DeckNote& note : notes_) mesh_.report.notes.push_back(to_string(note.where) + ": " + note.text);
     note_others();
-    return {std::move(mesh_), std::move(names_), is_whole_};
+    return {std::move(mesh_), std::move(names_), is_whole_, std::move(notes_), std::move(read_)};
   }
 
  private:
@@ -60,10 +61,19 @@ class DeckMeshReader {
   void each(const std::set<std::string>& names, const Visit& visit) {
     for (std::size_t own = 0; own < statements_.scopes.size(); ++own) {
       node_offset_ = highest_node_, element_offset_ = highest_element_;
+      if (own > 0) name_numbers(names, statements_.scopes[own].prefix);
       for (const Statement& s : statements_.list)
         if (at(s.scope) == own && names.count(s.keyword->name) != 0) attempt([&] { visit(s); });
     }
     node_offset_ = highest_node_, element_offset_ = highest_element_;
+    if (statements_.scopes.size() > 1) name_numbers(names, "");
+  }
+
+  /// Those that follow are of the instance with this prefix.
+  void name_numbers(const std::set<std::string>& keywords, const std::string& prefix) {
+    const std::string instance = prefix.substr(0, prefix.find_last_of('.'));
+    if (keywords.contains("NODE")) mesh_.node_instances.push_back({node_offset_, instance});
+    if (keywords.contains("ELEMENT")) mesh_.cell_instances.push_back({element_offset_, instance});
   }
 
   /// What fails makes a mesh that is not whole.
@@ -143,6 +153,8 @@ class DeckMeshReader {
     const std::size_t block = type.kind == DeckElementType::Kind::cell ? block_of(mesh_, type.type) : 0;
     const std::string* set = s.keyword->parameter("ELSET");
     std::vector<Index> members;
+    DeckMesh::Cells made{s.keyword, s.scope, {static_cast<Index>(block), 0}, 0};
+    if (type.kind == DeckElementType::Kind::cell) made.begin.cell = static_cast<Index>(mesh_.blocks[block].size());
     for (DeckCursor at(*s.keyword); at.next_line();) {
       const auto index = static_cast<Index>(elements_.size());
       const std::int64_t own = number(at, "the number of an element");
@@ -151,6 +163,10 @@ class DeckMeshReader {
         at.fail(fmt::format("element {} a second time", own), "every element once", "Renumber the elements.");
       read_element(at, s, type, block, own);
       if (set != nullptr) members.push_back(index);
+    }
+    if (type.kind == DeckElementType::Kind::cell) {
+      made.end = static_cast<Index>(mesh_.blocks[block].size());
+      read_.push_back(made);
     }
     if (set == nullptr) return;
     std::vector<Index>& to = element_sets_.set(scope(s).prefix + upper_case(*set));
@@ -219,10 +235,10 @@ class DeckMeshReader {
 
   void read_set(const Statement& s) {
     const DeckKeyword& keyword = *s.keyword;
-    if (keyword.name == "ELSET") element_sets_.read(s, statements_, mesh_.report.notes);
+    if (keyword.name == "ELSET") element_sets_.read(s, statements_, notes_);
     if (keyword.name != "NSET") return;
     const std::string* of = keyword.parameter("ELSET");
-    if (of == nullptr) return node_sets_.read(s, statements_, mesh_.report.notes);
+    if (of == nullptr) return node_sets_.read(s, statements_, notes_);
     const std::vector<Index>* elements = element_sets_.entries(*of, s.scope, statements_);
     if (elements == nullptr) keyword.fail("the unknown element set " + *of, "the name of an ELSET before this one");
     std::vector<Index>& to = node_sets_.set(scope(s).prefix + keyword.required("NSET"));
@@ -262,8 +278,7 @@ class DeckMeshReader {
       names_.surfaces[name] = {name, DeckNames::SurfaceKind::faces, name};
       names_.surfaces[name].roundness = add_analytic_faces(s, type, surface_cells_[name]);
     } else {
-      mesh_.report.notes.push_back(
-          fmt::format("{}: the surface {} of TYPE={} is no mesh; left out", to_string(keyword.where), name, type));
+      notes_.push_back({keyword.where, fmt::format("the surface {} of TYPE={} is no mesh; left out", name, type)});
     }
   }
 
@@ -540,6 +555,8 @@ class DeckMeshReader {
   bool has_unknown_ = false;     ///< elements of no known type
   Mesh mesh_;
   DeckNames names_;
+  std::vector<DeckNote> notes_;
+  std::vector<DeckMesh::Cells> read_;
   DeckSets node_sets_{"node", "NSET"}, element_sets_{"element", "ELSET"};
   std::vector<DeckElement> elements_;
   DeckFaces faces_;

@@ -26,7 +26,9 @@ const std::vector<Index>* DeckSets::entries(std::string_view text, int scope, co
   return &single_;
 }
 
-void DeckSets::append_range(DeckCursor& at, int scope, std::vector<Index>& to, std::size_t& missing) const {
+/// Numbers that are no entries are left out with a note; a range without any is wrong.
+void DeckSets::append_range(DeckCursor& at, const std::string& name, int scope, std::vector<Index>& to,
+                            std::vector<DeckNote>& notes) const {
   const std::int64_t first = at.integer("the first number"), last = at.at_end() ? first : at.integer("the last number");
   const std::int64_t step = at.at_end() ? 1 : at.integer("the increment");
   constexpr std::int64_t most = 2'000'000'000;
@@ -37,10 +39,19 @@ void DeckSets::append_range(DeckCursor& at, int scope, std::vector<Index>& to, s
     const Index index = find(scope, number);
     if (index >= 0) to.push_back(index);
   }
-  missing += static_cast<std::size_t>((last - first) / step) + 1 - (to.size() - before);
+  const std::size_t wanted = static_cast<std::size_t>((last - first) / step) + 1, found = to.size() - before;
+  if (found == wanted) return;
+  const std::string range = fmt::format("{} to {}{}", first, last, step == 1 ? "" : fmt::format(" by {}", step));
+  if (found == 0)
+    at.fail(fmt::format("the range {} for {}, none of which is the number of a{} {}", range, name,
+                        entry_ == "element" ? "n" : "", entry_),
+            fmt::format("numbers of {}s, the largest of which is {}", entry_, highest_[carom::at(scope)]),
+            "Are the numbers those of another part or instance?");
+  notes.push_back({at.where(), fmt::format("{}: {} of the {} numbers of the range {} are no {}s; left out", name,
+                                           wanted - found, wanted, range, entry_)});
 }
 
-void DeckSets::read(const Statement& statement, const Statements& statements, std::vector<std::string>& notes) {
+void DeckSets::read(const Statement& statement, const Statements& statements, std::vector<DeckNote>& notes) {
   const DeckKeyword& keyword = *statement.keyword;
   const std::string name = statements.scopes[at(statement.scope)].prefix + keyword.required(parameter_);
   int scope = statement.scope;
@@ -50,10 +61,9 @@ void DeckSets::read(const Statement& statement, const Statements& statements, st
       keyword.fail(fmt::format("the unknown instance {}", keyword.required("INSTANCE")), "the NAME of an *INSTANCE");
   }
   std::vector<Index> found;
-  std::size_t missing = 0;
   for (DeckCursor at(keyword); at.next_line();) {
     if (keyword.has("GENERATE")) {
-      append_range(at, scope, found, missing);
+      append_range(at, name, scope, found, notes);
       continue;
     }
     while (!at.at_end()) {
@@ -66,9 +76,6 @@ void DeckSets::read(const Statement& statement, const Statements& statements, st
       found.insert(found.end(), more->begin(), more->end());
     }
   }
-  if (missing > 0)
-    notes.push_back(
-        fmt::format("{}: {} numbers of the range are no {}s; left out", to_string(keyword.where), missing, entry_));
   std::vector<Index>& set = sets_[name];
   set.insert(set.end(), found.begin(), found.end());
   std::sort(set.begin(), set.end());  // a set that names itself would grow without end

@@ -25,6 +25,12 @@ struct DeckElement {
   std::int64_t number = 0;      ///< as written
 };
 
+/// What a reader has to say of a place of the deck.
+struct DeckNote {
+  Location where;
+  std::string text;
+};
+
 /// Sets of one kind, with the instance before their names, and the entries by their numbers in each scope.
 class DeckSets {
  public:
@@ -43,12 +49,13 @@ class DeckSets {
   std::vector<Index>& set(const std::string& name) { return sets_[name]; }
   const std::map<std::string, std::vector<Index>>& all() const { return sets_; }
   /// *NSET or *ELSET: its data lines, appended to the set.
-  void read(const Statement& statement, const Statements& statements, std::vector<std::string>& notes);
+  void read(const Statement& statement, const Statements& statements, std::vector<DeckNote>& notes);
   /// The entries of a name or number as written in a data line ("TOP", "5", "PART-1-1.5"); nullptr where there is none.
   const std::vector<Index>* entries(std::string_view text, int scope, const Statements& statements);
 
  private:
-  void append_range(DeckCursor& at, int scope, std::vector<Index>& to, std::size_t& missing) const;
+  void append_range(DeckCursor& at, const std::string& name, int scope, std::vector<Index>& to,
+                    std::vector<DeckNote>& notes) const;
 
   std::string entry_, parameter_;
   std::vector<NodeNumbers> numbers_;   ///< by scope

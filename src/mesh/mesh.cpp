@@ -15,7 +15,26 @@ std::vector<Index> marked(const std::vector<char>& flags) {
   return nodes;
 }
 
+std::string label_of(std::int64_t number, const std::vector<NumbersOfInstance>& instances) {
+  const auto behind = std::ranges::lower_bound(instances, number, {}, &NumbersOfInstance::after);
+  if (behind == instances.begin() || std::prev(behind)->instance.empty()) return std::to_string(number);
+  const NumbersOfInstance& own = *std::prev(behind);
+  return std::to_string(number - own.after) + " of instance " + own.instance;
+}
+
 }  // namespace
+
+std::string Mesh::node_label(Index node) const {
+  return label_of(node_numbers[at(node)], node_instances);
+}
+
+std::string Mesh::cell_label(const CellRef& cell) const {
+  return cell_label(blocks[at(cell.block)].file_numbers[at(cell.cell)]);
+}
+
+std::string Mesh::cell_label(std::int64_t file_number) const {
+  return label_of(file_number, cell_instances);
+}
 
 const CellBlock* Mesh::block(CellType type) const {
   const auto found = std::find_if(blocks.begin(), blocks.end(), [&](const CellBlock& b) { return b.type == type; });

@@ -104,11 +104,19 @@ struct CellRef {
   friend auto operator<=>(const CellRef&, const CellRef&) = default;
 };
 
+/// Numbers above `after` are those of an instance of a deck, whose own count from 1 and follow on it; without a name:
+/// of none.
+struct NumbersOfInstance {
+  std::int64_t after = 0;
+  std::string instance;
+};
+
 /// What the reader mended or noticed, for `carom mesh` and the log.
 struct MeshReport {
-  std::string source;      ///< path of the file or "structured block"
-  std::string format;      ///< e.g. "Gmsh 2.2 ASCII", "MED 3.3", "block"
-  std::size_t turned = 0;  ///< solid cells whose node order was turned because their Jacobian was negative
+  std::string source;             ///< path of the file or "structured block"
+  std::string format;             ///< e.g. "Gmsh 2.2 ASCII", "MED 3.3", "block"
+  std::size_t turned = 0;         ///< solid cells whose node order was turned because their Jacobian was negative
+  std::int64_t first_turned = 0;  ///< file number of the first of them
   /// Smallest over cells of (min det J at the corners / max det J at the corners): solids, and QUAD4 of plane meshes.
   double worst_jacobian = 0.0;
   std::int64_t worst_cell = 0;  ///< file number of that cell
@@ -123,12 +131,17 @@ struct MeshReport {
 struct Mesh {
   std::vector<Vec3> coordinates;
   std::vector<std::int64_t> node_numbers;
-  std::vector<CellBlock> blocks;  ///< at most one per type
+  std::vector<CellBlock> blocks;                                  ///< at most one per type
+  std::vector<NumbersOfInstance> node_instances, cell_instances;  ///< increasing; empty where the file has no instances
   std::map<std::string, std::vector<Index>> node_groups;
   std::map<std::string, std::vector<CellRef>> cell_groups;  ///< points, lines, faces and solids alike
   MeshReport report;
 
   std::size_t node_count() const { return coordinates.size(); }
+  /// The numbers as the user has written them: "405", or "405 of instance PLATE-1".
+  std::string node_label(Index node) const;
+  std::string cell_label(const CellRef& cell) const;
+  std::string cell_label(std::int64_t file_number) const;
   /// The block of this type or nullptr.
   const CellBlock* block(CellType type) const;
   /// Nodes of a group: the node group of that name united with the nodes of the cell group of that name; sorted,

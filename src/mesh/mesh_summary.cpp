@@ -53,7 +53,8 @@ std::string format_cells(const Mesh& mesh) {
   const MeshReport& report = mesh.report;
   if (report.worst_cell != 0)
     text += fmt::format("{:<9} worst Jacobian ratio {:.4g} in cell {}; {} turned\n", "shape", report.worst_jacobian,
-                        report.worst_cell, report.turned == 1 ? "1 cell" : fmt::format("{} cells", report.turned));
+                        mesh.cell_label(report.worst_cell),
+                        report.turned == 1 ? "1 cell" : fmt::format("{} cells", report.turned));
   if (const std::size_t interfaces = count_interfaces(mesh); interfaces > 0)
     text += fmt::format("{:<9} {} of zero thickness\n", "", interfaces);
   return text;

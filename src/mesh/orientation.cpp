@@ -105,7 +105,7 @@ std::string fault(const Mesh& mesh, std::span<const Index> nodes, const CornerJa
 /// The cells that cannot be computed with.
 struct Faults {
   std::string first_cell, first_fault;
-  std::vector<std::int64_t> others;
+  std::vector<std::string> others;
 };
 
 [[noreturn]] void refuse(const Mesh& mesh, const Faults& faults) {
@@ -173,10 +173,10 @@ void orient_cells(Mesh& mesh) {
       if (J.positive != corners && J.negative != corners) {
         if (has_zero_thickness(mesh, block.type, nodes)) continue;
         if (faults.first_cell.empty()) {
-          faults.first_cell = fmt::format("cell {} ({})", block.file_numbers[cell], name(block.type));
+          faults.first_cell = fmt::format("cell {} ({})", mesh.cell_label(block.file_numbers[cell]), name(block.type));
           faults.first_fault = fault(mesh, nodes, J);
         } else {
-          faults.others.push_back(block.file_numbers[cell]);
+          faults.others.push_back(mesh.cell_label(block.file_numbers[cell]));
         }
         continue;
       }
@@ -184,7 +184,7 @@ void orient_cells(Mesh& mesh) {
         std::array<Index, 27> old{};
         std::copy(nodes.begin(), nodes.end(), old.begin());
         for (std::size_t i = 0; i < n; ++i) nodes[i] = old[mirror[i]];
-        ++report.turned;
+        if (++report.turned == 1) report.first_turned = block.file_numbers[cell];
       }
       const double ratio = J.negative == corners ? J.max / J.min : J.min / J.max;
       if (any && ratio >= report.worst_jacobian) continue;

@@ -11,6 +11,7 @@
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
 #include "deck/deck.hpp"
+#include "deck/foreign.hpp"
 #include "mesh/deck_mesh.hpp"
 #include "mesh/read_gmsh.hpp"
 #include "mesh/read_med.hpp"
@@ -50,6 +51,7 @@ Mesh read_mesh(std::string_view bytes, const std::string& source) {
   if (bytes.starts_with("\x89HDF\r\n\x1a\n")) return read_med(bytes, source);
   if (first.starts_with("$")) return read_gmsh(bytes, source);
   if (looks_like_deck(bytes)) return read_deck_mesh(std::string(bytes), source, read_included);
+  if (!first.empty()) refuse_foreign(bytes, source);
   throw CaseError({source, 0, 0}, "", first.empty() ? "an empty file" : "a file that begins with " + printable(first),
                   kKnown,
                   source.ends_with(".toml") ? "`carom check` and `carom run` take cases."

@@ -26,6 +26,7 @@ CellRef append(const CellBlock& block, Index nodes, std::int64_t numbers, std::v
 /// What was seen of the cells of both.
 void add_report(const MeshReport& second, std::int64_t numbers, MeshReport& report) {
   report.format += " and " + second.format;
+  if (report.turned == 0 && second.turned > 0) report.first_turned = second.first_turned + numbers;
   report.turned += second.turned;
   report.notes.insert(report.notes.end(), second.notes.begin(), second.notes.end());
   if (second.worst_cell == 0 || (report.worst_cell != 0 && report.worst_jacobian <= second.worst_jacobian)) return;
@@ -60,6 +61,13 @@ Mesh united(Mesh first, const Mesh& second) {
     }
     std::sort(all.begin(), all.end());
   }
+  const auto append_instances = [](const std::vector<NumbersOfInstance>& from, std::int64_t last,
+                                   std::vector<NumbersOfInstance>& to) {
+    if (!to.empty()) to.push_back({last, ""});
+    for (const NumbersOfInstance& each : from) to.push_back({each.after + last, each.instance});
+  };
+  append_instances(second.node_instances, last_node, first.node_instances);
+  append_instances(second.cell_instances, last_cell, first.cell_instances);
   add_report(second.report, last_cell, first.report);
   return first;
 }

@@ -208,7 +208,7 @@ void ProbeCurves::note_node(const CaseProbe& given, const ProbePlace& place) {
   const auto n = static_cast<std::size_t>(place.nodes[0]);
   const Vec3& x = simulation_.mesh().coordinates[n];
   notes_.push_back(fmt::format("probe \"{}\": node {} at ({:.6g}, {:.6g}, {:.6g}), {:.3g} from the point", *given.name,
-                               simulation_.mesh().node_numbers[n], x[0], x[1], x[2], place.distance));
+                               simulation_.mesh().node_label(place.nodes[0]), x[0], x[1], x[2], place.distance));
 }
 
 void ProbeCurves::find_cells(const CaseProbe& given, const Vec3& position, Probe& probe) const {

@@ -69,14 +69,14 @@ ProbePlace nearest_node(const CaseProbe& given, const Simulation& simulation) {
   const double most = given.within ? *given.within : (1.0 + round_off) * cell_size(node, simulation);
   if (best > most) {
     const Vec3& x = mesh.coordinates[nearest];
-    throw CaseError(
-        point.where, "probe.point",
-        fmt::format("({:.6g}, {:.6g}, {:.6g}), which is {:.4g} from the nearest node of a part, node {} at "
-                    "({:.6g}, {:.6g}, {:.6g})",
-                    (*point)[0], (*point)[1], (*point)[2], best, mesh.node_numbers[nearest], x[0], x[1], x[2]),
-        fmt::format("a point within {:.4g} of a node{}", most,
-                    given.within ? " (within)" : ", which is the size of a cell there"),
-        "If that node is meant, name it (node = ...) or allow the distance (within = ...).");
+    throw CaseError(point.where, "probe.point",
+                    fmt::format("({:.6g}, {:.6g}, {:.6g}), which is {:.4g} from the nearest node of a part, node {} at "
+                                "({:.6g}, {:.6g}, {:.6g})",
+                                (*point)[0], (*point)[1], (*point)[2], best,
+                                mesh.node_label(static_cast<Index>(nearest)), x[0], x[1], x[2]),
+                    fmt::format("a point within {:.4g} of a node{}", most,
+                                given.within ? " (within)" : ", which is the size of a cell there"),
+                    "If that node is meant, name it (node = ...) or allow the distance (within = ...).");
   }
   return {{node}, best};
 }

@@ -343,7 +343,7 @@ void Recorder::fill(Summary& summary) const {
         {*probe.name,
          probe.part    ? fmt::format("part {}", **probe.part)
          : probe.group ? fmt::format("{} node{} of {}", nodes.size(), nodes.size() == 1 ? "" : "s", **probe.group)
-                       : fmt::format("node {}", simulation_.mesh().node_numbers[static_cast<std::size_t>(nodes[0])]),
+                       : fmt::format("node {}", simulation_.mesh().node_label(nodes[0])),
          tables_.probes.positions()[p]});
   }
 }

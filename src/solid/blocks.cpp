@@ -38,22 +38,23 @@ const Element* element_of(const Part& part) {
   return find_element(part.type, part.section, part.formulation);
 }
 
-void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::size_t nodes, std::int64_t number,
+void check_shape(const Mesh& mesh, const Part& part, const CellNodes& x, std::size_t nodes, const CellRef& cell,
                  double det_J, double largest_radius) {
   if (!(det_J > 0.0))
-    throw part_error(mesh, part, fmt::format("Jacobian determinant {:.3g} in cell {}", det_J, number),
+    throw part_error(mesh, part, fmt::format("Jacobian determinant {:.3g} in cell {}", det_J, mesh.cell_label(cell)),
                      "a positive Jacobian determinant at every Gauss point",
                      "mend the cell in the mesh: it is flat, folded or too distorted");
   if (dimension(part.type) != 2) return;
   constexpr double flat = 1e-9;  // coordinates from a text file have more digits than that
   for (std::size_t a = 1; a < nodes; ++a)
     if (std::abs(x[a][2] - x[0][2]) > flat * std::sqrt(det_J))
-      throw part_error(mesh, part, fmt::format("z = {:.6g} and {:.6g} in cell {}", x[0][2], x[a][2], number),
+      throw part_error(mesh, part,
+                       fmt::format("z = {:.6g} and {:.6g} in cell {}", x[0][2], x[a][2], mesh.cell_label(cell)),
                        "plane cells in the x-y plane", "turn the mesh so that z is constant");
   constexpr double on_axis = 1e-9;  // as Parts::axis_tolerance
   for (std::size_t a = 0; a < nodes && part.section == Section::axisymmetric; ++a)
     if (x[a][0] < -on_axis * largest_radius)
-      throw part_error(mesh, part, fmt::format("x = {:.6g} in cell {}", x[a][0], number),
+      throw part_error(mesh, part, fmt::format("x = {:.6g} in cell {}", x[a][0], mesh.cell_label(cell)),
                        "x >= 0: the radius about the y axis", "move the mesh to the right of the y axis");
 }
 
@@ -87,12 +88,12 @@ std::vector<CellRef> cells_of(const Mesh& mesh, const std::vector<Part>& parts, 
       throw part_error(mesh, part, fmt::format("cell index {}", cell),
                        fmt::format("one of the {} {} cells of the mesh", available, name(part.type)),
                        fmt::format("the part is made of {0} cells: mesh it with {0} cells", name(part.type)));
-    const std::int64_t number = block->file_numbers[at(cell)];
     const CellRef ref{static_cast<Index>(block - mesh.blocks.data()), cell};
     Index& owner = owners[at(ref.block)][at(cell)];
     if (owner >= 0)
-      throw part_error(mesh, part, fmt::format("cell {}, which is in parts.{} already", number, parts[at(owner)].name),
-                       "each cell in one part", "take the cell out of one of the two groups");
+      throw part_error(
+          mesh, part, fmt::format("cell {}, which is in parts.{} already", mesh.cell_label(ref), parts[at(owner)].name),
+          "each cell in one part", "take the cell out of one of the two groups");
     owner = static_cast<Index>(p);
     cells.push_back(ref);
   }
@@ -183,8 +184,7 @@ void check_shapes(const Mesh& mesh, const Part& part, const std::vector<CellRef>
   for (std::size_t c = 0; c < cells.size(); ++c) {
     if (det_J[c] > 0.0 && dimension(part.type) != 2) continue;
     const auto nodes = connectivity_of(mesh, cells[c]);
-    check_shape(mesh, part, positions(mesh, nodes), nodes.size(),
-                mesh.blocks[at(cells[c].block)].file_numbers[at(cells[c].cell)], det_J[c], largest_radius);
+    check_shape(mesh, part, positions(mesh, nodes), nodes.size(), cells[c], det_J[c], largest_radius);
   }
 }
 

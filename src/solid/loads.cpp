@@ -131,7 +131,7 @@ Vec3 end_normal(const Model& model, Index node) {
   }
   if (bars == 1) return normal;
   throw CaseError(Location{mesh.report.source}, "loads",
-                  fmt::format("pressure on node {}, which has {} bars", mesh.node_numbers[at(node)], bars),
+                  fmt::format("pressure on node {}, which has {} bars", mesh.node_label(node), bars),
                   "the end of one bar", "load other nodes by forces");
 }
 

@@ -43,10 +43,8 @@ std::string describe(const MassGain& gain, const Solid& solid, const Mesh& mesh)
       for (std::size_t c = 0; c < 3; ++c)
         centre[c] += mesh.coordinates[static_cast<std::size_t>(n)][c] / static_cast<double>(nodes.size());
     }
-    text +=
-        fmt::format("{}cell {} at ({:.4g}, {:.4g}, {:.4g}) x {:.4g}", separator,
-                    mesh.blocks[static_cast<std::size_t>(ref.block)].file_numbers[static_cast<std::size_t>(ref.cell)],
-                    centre[0], centre[1], centre[2], one.factor);
+    text += fmt::format("{}cell {} at ({:.4g}, {:.4g}, {:.4g}) x {:.4g}", separator, mesh.cell_label(ref), centre[0],
+                        centre[1], centre[2], one.factor);
     separator = ", ";
   }
   return text;

@@ -132,7 +132,7 @@ NodePatches make_node_patches(const Model& model, const SolidCells& solid, const
     for (const Patch& patch : patches)
       if (const Valence own{patch.node, patch.neighbours.size(), patch.cells.size()}; !own.is_within_patch())
         throw CaseError(Location{solid.mesh->report.source}, "parts." + part.name,
-                        fmt::format("node {} with {} neighbours and {} cells", solid.mesh->node_numbers[at(patch.node)],
+                        fmt::format("node {} with {} neighbours and {} cells", solid.mesh->node_label(patch.node),
                                     own.neighbours, own.cells),
                         fmt::format("at most {} neighbours and {} cells about a node of formulation \"nodal\"",
                                     most_neighbours, most_patch_cells),

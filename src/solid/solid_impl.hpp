@@ -197,7 +197,7 @@ struct Solid::Parts {
         throw std::runtime_error(
             fmt::format("the stiffness of cell {} at rest is not a number: its size and the numbers "
                         "of its material are too far apart",
-                        solid.mesh->blocks[at(solid.cells[k].block)].file_numbers[at(solid.cells[k].cell)]));
+                        solid.mesh->cell_label(solid.cells[k])));
     return bounds;
   }
   /// Of the deformable cells; where all are rigid, what theirs would be about, 2 c / length.

@@ -422,8 +422,8 @@ std::vector<double> DirectSolver::contact_displacements(const ConstraintRows& ro
 
 std::string describe_motion(const Mesh& mesh, std::size_t dof) {
   const Vec3& x = mesh.coordinates[dof / 3];
-  return fmt::format("node {} at ({:.4g}, {:.4g}, {:.4g}) moves along {}", mesh.node_numbers[dof / 3], x[0], x[1], x[2],
-                     "xyz"[dof % 3]);
+  return fmt::format("node {} at ({:.4g}, {:.4g}, {:.4g}) moves along {}", mesh.node_label(static_cast<Index>(dof / 3)),
+                     x[0], x[1], x[2], "xyz"[dof % 3]);
 }
 
 SolverKind chosen_solver(const System& system, SolverKind kind, EnforcementKind enforcement, double ratio,

@@ -463,8 +463,8 @@ std::string FreeModes::describe(std::span<const double> load) const {
   const Vec3 direction = normalized({sum[at], sum[at + 1], sum[at + 2]});
   const Vec3& c = body.centre;
   return fmt::format("the body about ({:.4g}, {:.4g}, {:.4g}), with node {}, {} ({:.3g}, {:.3g}, {:.3g})", c[0], c[1],
-                     c[2], system_.mesh.node_numbers[static_cast<std::size_t>(body.nodes[0])],
-                     is_turn ? "about the axis" : "along", direction[0], direction[1], direction[2]);
+                     c[2], system_.mesh.node_label(body.nodes[0]), is_turn ? "about the axis" : "along", direction[0],
+                     direction[1], direction[2]);
 }
 
 }  // namespace carom

@@ -31,8 +31,8 @@ Supports::Supports(const Model& model, const std::vector<bool>& has_mass) {
       const auto [entry, is_new] = owner.emplace(3 * n + motion.component, &motion);
       if (is_new || same_motion(*entry->second, motion)) continue;
       throw std::invalid_argument(fmt::format("node {} has two different motions along {}: from \"{}\" and from \"{}\"",
-                                              model.mesh->node_numbers[static_cast<std::size_t>(n)],
-                                              "xyz"[motion.component], entry -> second -> name, motion.name));
+                                              model.mesh->node_label(n), "xyz"[motion.component],
+                                              entry -> second -> name, motion.name));
     }
   }
   fixed_.assign(3 * has_mass.size(), false);

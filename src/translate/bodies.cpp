@@ -463,6 +463,19 @@ struct OfSections {
   std::set<std::string> breaking;     ///< materials whose cells go by their damage
 };
 
+/// The thickness or area in the data line.
+std::optional<double> size_of(DeckCursor& at) {
+  if (!at.next_line()) return std::nullopt;
+  DeckCursor ahead = at;
+  if (ahead.field().empty()) return std::nullopt;
+  return at.real("thickness or area");
+}
+
+std::string near_of(const std::string& name, const std::vector<std::string>& known) {
+  const std::string near = nearest(name, known);
+  return near.empty() ? "" : "Did you mean " + near + "?";
+}
+
 void translate_section(Translation& t, const Statement& s, const OfSections& shared) {
   std::array<double, 2> viscosity = viscosity_factors(t, *s.keyword);
   for (std::size_t i = 0; i < viscosity.size(); ++i) viscosity[i] *= shared.viscosity[i];
@@ -470,9 +483,14 @@ void translate_section(Translation& t, const Statement& s, const OfSections& sha
   const std::string set = keyword.required("ELSET"), material = keyword.required("MATERIAL");
   const std::string key = key_of(t.mesh.names.element_sets, t.scope(s), set);
   if (key.empty()) keyword.fail("ELSET=" + set, "the name of a set of cells");
+  if (std::ranges::none_of(t.materials, [&](const std::string& name) { return upper_case(name) == material; }))
+    keyword.fail("the unknown material " + material,
+                 t.materials.empty() ? "the NAME of a *MATERIAL; the deck has none"
+                                     : fmt::format("the NAME of a *MATERIAL ({})", fmt::join(t.materials, ", ")),
+                 near_of(material, t.materials));
   DeckCursor at(keyword);
   const std::optional<double> keeps = distortion_control(t, keyword);
-  const double size = at.next_line() ? at.real_or(0.0, "thickness or area") : 0.0;
+  const std::optional<double> size = size_of(at);
   const std::vector<DeckNames::Cells>& all = t.mesh.names.element_sets.at(key);
   if (all.empty()) return;  // elements of no known type, which have been said
   for (const DeckNames::Cells& cells : all) {
@@ -485,10 +503,16 @@ void translate_section(Translation& t, const Statement& s, const OfSections& sha
     TableMaker part(keyword.where);
     part.text("name", group).text("cells", group).text("material", material);
     if (section != "solid") part.text("section", std::string(section));
-    if (section == "plane_strain" || section == "plane_stress") part.number("thickness", size > 0.0 ? size : 1.0);
+    if (section == "plane_strain" || section == "plane_stress") {
+      if (size && !(*size > 0.0))
+        at.fail(fmt::format("a thickness of {:g}", *size), "a thickness > 0, or no data line for one of 1",
+                "Masses and forces are those of cells so thick.");
+      part.number("thickness", size.value_or(1.0));
+      if (!size) t.findings.note(keyword.where, "no thickness in a data line: it is 1");
+    }
     if (section == "bar") {
-      if (!(size > 0.0)) keyword.fail("no area of the bars", "their area in the data line");
-      part.number("area", size);
+      if (!size || !(*size > 0.0)) keyword.fail("no area of the bars", "their area in the data line");
+      part.number("area", *size);
     }
     if (!formulation.empty()) part.text("formulation", std::string(formulation));
     if (keeps) part.number("distortion_control", *keeps);
@@ -517,10 +541,11 @@ void translate_bodies(Translation& t) {
   if (!t.mesh.is_whole) return;
   for (const Statement& s : t.statements.list)
     if (s.keyword->name == "SOLID SECTION") t.errors.attempt([&] { translate_section(t, s, shared); });
-  const bool lacks_all = t.root.find("materials") == nullptr || t.root.find("part") == nullptr;
-  if (lacks_all && t.errors.empty())
-    t.errors.add(
-        CaseError({t.mesh.mesh.report.source, 0, 0}, "", "no *MATERIAL with a *SOLID SECTION", "at least one of both"));
+  if (t.root.find("part") == nullptr && t.errors.empty())
+    t.errors.add(CaseError({t.mesh.mesh.report.source, 0, 0}, "",
+                           t.materials.empty() ? "no *MATERIAL and no *SOLID SECTION" : "no *SOLID SECTION",
+                           "a *SOLID SECTION of the elements, with its ELSET and the NAME of a *MATERIAL",
+                           "Elements that are to move have a material by their section."));
 }
 
 }  // namespace carom

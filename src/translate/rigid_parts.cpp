@@ -32,14 +32,6 @@ void refuse_motions_in_guides(const DeckRigidBody& body) {
 
 /// The parts whose cells are those of the body. Throws CaseError where a part has others too, or no part has some.
 std::vector<std::string> parts_of(const Translation& t, const DeckRigidBody& body) {
-  const auto numbers_of = [&](const std::vector<CellRef>& cells) {
-    constexpr std::size_t most = 5;
-    std::string text;
-    for (std::size_t k = 0; k < std::min(cells.size(), most); ++k)
-      text += fmt::format("{}{}", k == 0 ? "" : ", ",
-                          t.mesh.mesh.blocks[at(cells[k].block)].file_numbers[at(cells[k].cell)]);
-    return text + (cells.size() > most ? fmt::format(" and {} more", cells.size() - most) : "");
-  };
   std::vector<std::string> names;
   std::set<CellRef> held;
   const Node* parts = t.root.find("part");
@@ -56,14 +48,14 @@ std::vector<std::string> parts_of(const Translation& t, const DeckRigidBody& bod
                                      cells.size(), text("cells"), body.name),
                          "all elements of a section, or none",
                          fmt::format("Elements {} of it are not in {}: give the rigid elements a section of their own.",
-                                     numbers_of(others), body.name));
+                                     t.numbers_of(others), body.name));
     names.push_back(text("name"));
     held.insert(cells.begin(), cells.end());
   }
   std::vector<CellRef> loose;
   std::ranges::set_difference(body.cells, held, std::back_inserter(loose));
   if (!loose.empty())
-    body.keyword->fail(fmt::format("elements {} of {} without a section", numbers_of(loose), body.name),
+    body.keyword->fail(fmt::format("elements {} of {} without a section", t.numbers_of(loose), body.name),
                        "a *SOLID SECTION of all elements of the body", "Their material gives the body its mass.");
   return names;
 }

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "base/terminal_text.hpp"
 #include "casefile/read_case.hpp"
 #include "translate/rigid.hpp"
 #include "translate/translation.hpp"
@@ -19,15 +20,12 @@ namespace carom {
 
 namespace {
 
-/// The first line under *HEADING, in ASCII.
+/// The first line under *HEADING.
 Node title_of(const Statements& statements, const std::string& path) {
   for (const Statement& s : statements.list) {
     DeckCursor at(*s.keyword);
     if (s.keyword->name != "HEADING" || !at.next_line()) continue;
-    std::string title(at.line());
-    for (char& c : title)
-      if (c < 32 || c > 126) c = '?';
-    return text_node(title, at.where());
+    return text_node(as_utf8(at.line()), at.where());
   }
   return text_node(std::filesystem::path(path).stem().string(), {path, 1, 0});
 }
@@ -68,6 +66,19 @@ std::set<CellRef> Translation::body_cells() const {
         bodies.insert(group.begin(), group.end());
       }
   return bodies;
+}
+
+std::string Translation::numbers_of(const std::vector<CellRef>& cells) const {
+  constexpr std::size_t most = 5;
+  std::vector<std::string> numbers;
+  for (std::size_t k = 0; k < std::min(cells.size(), most); ++k) numbers.push_back(mesh.mesh.cell_label(cells[k]));
+  // The instance once, behind the numbers.
+  const std::size_t end = numbers.empty() ? std::string::npos : numbers.front().find(' ');
+  const std::string instance = end == std::string::npos ? "" : numbers.front().substr(end);
+  for (std::string& number : numbers)
+    if (number.ends_with(instance)) number.resize(number.size() - instance.size());
+  return fmt::format("{}{}{}", fmt::join(numbers, ", "),
+                     cells.size() > most ? fmt::format(" and {} more", cells.size() - most) : "", instance);
 }
 
 void Translation::append(const std::string& section, Node entry) {
@@ -207,10 +218,9 @@ void translate_on_mesh(Translation& t) {
     t.errors.attempt([&] { translate(t); });
 }
 
-/// Faces and the like may be left; cells of parts have to have a section all the same, but for instances that are
+/// Cells of parts have a section, but for those of rigid bodies, which say so themselves, and of instances that are
 /// shown alone.
-void ignore_unused(Translation& t, TableMaker& of_mesh) {
-  of_mesh.text("unused", "ignore");
+void refuse_loose_cells(Translation& t) {
   std::set<CellRef> loose = t.body_cells();
   const auto remove = [&](const std::string& group) {
     for (const CellRef& cell : t.mesh.mesh.cell_groups.at(group)) loose.erase(cell);
@@ -218,18 +228,25 @@ void ignore_unused(Translation& t, TableMaker& of_mesh) {
   if (const Node* parts = t.root.find("part"))
     for (const Node& part : std::get<List>(parts->value))
       remove(std::get<std::string>(std::get<Table>(part.value).find("cells")->value));
+  for (const DeckRigidBody& body : t.rigid_bodies)
+    for (const CellRef& cell : body.cells) loose.erase(cell);
   for (const Statement& s : t.statements.list) {
     if (s.keyword->name != "DISPLAY BODY" || !s.keyword->has("INSTANCE")) continue;
     for (const auto& [set, list] : t.mesh.names.element_sets)
       if (set.starts_with(s.keyword->required("INSTANCE") + "."))
         for (const DeckNames::Cells& cells : list) remove(cells.group);
   }
-  if (loose.empty() || !t.errors.empty()) return;
-  const CellRef& first = *loose.begin();
-  const std::int64_t number = t.mesh.mesh.blocks[at(first.block)].file_numbers[at(first.cell)];
-  t.errors.add(CaseError({t.mesh.mesh.report.source, 0, 0}, "",
-                         fmt::format("{} elements without a section, element {} the first", loose.size(), number),
-                         "a *SOLID SECTION of all solids, plane cells and bars"));
+  for (const DeckMesh::Cells& read : t.mesh.read) {
+    const std::vector<CellRef> own(loose.lower_bound(read.begin), loose.lower_bound({read.begin.block, read.end}));
+    if (own.empty()) continue;
+    const std::string* set = read.keyword->parameter("ELSET");
+    t.errors.add(
+        CaseError(read.keyword->where, "*ELEMENT",
+                  fmt::format("{} {} without a section", own.size() == 1 ? "element" : "elements", t.numbers_of(own)),
+                  "a *SOLID SECTION of all solids, plane cells and bars",
+                  set == nullptr ? "Give the *ELEMENT an ELSET, and that a *SOLID SECTION with its MATERIAL."
+                                 : fmt::format("Add *SOLID SECTION, ELSET={}, MATERIAL=...", *set)));
+  }
 }
 
 Attempt attempt(std::string bytes, const std::string& path, const std::vector<std::string>& accepted,
@@ -237,10 +254,14 @@ Attempt attempt(std::string bytes, const std::string& path, const std::vector<st
   const Deck deck = read_deck(std::move(bytes), path, include);
   Statements statements = statements_of(deck);
   Attempt made{{}, Findings(accepted), {}};
+  std::vector<std::string> materials;
+  for (const DeckKeyword& keyword : deck.keywords)
+    if (keyword.name == "MATERIAL" && keyword.has("NAME")) materials.push_back(keyword.required("NAME"));
   take_unused(statements, made.findings);
   const DeckMesh mesh = deck_mesh(statements, path, made.errors);
-  Translation t{statements, mesh, made.findings, made.errors, {}, {}, false, {}};
+  Translation t{statements, mesh, made.findings, made.errors, {}, {}, false, {}, std::move(materials)};
   survey(t);
+  for (const DeckNote& note : mesh.notes) made.findings.note(note.where, note.text);
   const std::size_t before = made.errors.size();
   find_steps(t);
   const bool has_steps = made.errors.size() == before && !t.steps.empty();
@@ -250,14 +271,16 @@ Attempt attempt(std::string bytes, const std::string& path, const std::vector<st
   of_mesh.text("file", std::filesystem::path(path).filename().string());
   t.root.members.push_back({"mesh", top, {}});
   if (mesh.is_whole) t.rigid_bodies = rigid_bodies_of(t);
+  const std::size_t before_bodies = made.errors.size();
   translate_bodies(t);
+  if (mesh.is_whole && made.errors.size() == before_bodies) refuse_loose_cells(t);
   if (has_steps && mesh.is_whole) translate_on_mesh(t);
   const auto leaves_cells = {"SHELL SECTION", "BEAM SECTION", "BEAM GENERAL SECTION", "MEMBRANE SECTION"};
   const auto shows = [](const Statement& s) { return s.keyword->name == "DISPLAY BODY"; };
   t.leaves_faces = t.leaves_faces || std::ranges::any_of(statements.list, shows);
   if (t.leaves_faces || std::any_of(leaves_cells.begin(), leaves_cells.end(),
                                     [&](const char* name) { return made.findings.is_left_out(name); }))
-    ignore_unused(t, of_mesh);
+    of_mesh.text("unused", "ignore");  // faces and the like
   t.root.members[1].value = of_mesh.node();
   made.findings.check_accepted(deck, path, made.errors);
   if (!made.errors.empty()) return made;

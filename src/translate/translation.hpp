@@ -52,6 +52,7 @@ struct Translation {
   std::vector<DeckRigidBody> rigid_bodies;
   bool leaves_faces = false;  ///< faces of rigid bodies that look away from general contact
   Table root;
+  std::vector<std::string> materials{};  ///< the NAMEs of all *MATERIAL of the deck
 
   const DeckScope& scope(const Statement& s) const { return statements.scopes[at(s.scope)]; }
   /// Is the body to be followed through finite rotations?
@@ -62,6 +63,8 @@ struct Translation {
   bool is_explicit_abaqus() const;
   /// The cells that parts are made of.
   std::set<CellRef> body_cells() const;
+  /// Elements by their numbers, the first of many: "7, 8 and 2 more", with the instance of the first.
+  std::string numbers_of(const std::vector<CellRef>& cells) const;
   /// Appends to the list `section` of the case.
   void append(const std::string& section, Node entry);
   /// Adds a member to the table `section` of the case.
