@@ -14,6 +14,7 @@
 #include "math/vec3.hpp"
 #include "mesh/deck_analytic.hpp"
 #include "mesh/deck_faces.hpp"
+#include "mesh/deck_generated.hpp"
 #include "mesh/deck_sets.hpp"
 #include "mesh/finish_mesh.hpp"
 
@@ -26,7 +27,10 @@ constexpr std::int64_t highest_number = 2'000'000'000;
 class DeckMeshReader {
  public:
   DeckMeshReader(const Statements& statements, const std::string& source, CaseErrors& errors)
-      : statements_(statements), errors_(errors), faces_(mesh_, elements_) {
+      : statements_(statements),
+        errors_(errors),
+        faces_(mesh_, elements_),
+        generator_(statements, mesh_, elements_, node_sets_, element_sets_) {
     mesh_.report.source = source;
     mesh_.report.format = "deck of Abaqus or CalculiX";
   }
@@ -34,8 +38,8 @@ class DeckMeshReader {
   DeckMesh run() {
     refuse_made_elsewhere();
     expect_numbers();
-    each({"NODE"}, [this](const Statement& s) { read_nodes(s); });
-    if (is_whole_) each({"ELEMENT"}, [this](const Statement& s) { read_elements(s); });
+    each({"NODE", "NGEN"}, [this](const Statement& s) { read_nodes(s); });
+    if (is_whole_) each({"ELEMENT", "ELGEN"}, [this](const Statement& s) { read_elements(s); });
     next_number_ = element_offset_;
     if (is_whole_) {
       for (const Statement& s : statements_.list) attempt([&] { read_set(s); });
@@ -114,6 +118,7 @@ class DeckMeshReader {
   }
 
   void read_nodes(const Statement& s) {
+    if (s.keyword->name == "NGEN") return generator_.add_nodes(s, node_offset_, highest_node_);
     const std::string* set = s.keyword->parameter("NSET");
     std::vector<Index> members;
     for (DeckCursor at(*s.keyword); at.next_line();) {
@@ -146,6 +151,7 @@ class DeckMeshReader {
   }
 
   void read_elements(const Statement& s) {
+    if (s.keyword->name == "ELGEN") return generator_.add_elements(s, element_offset_, highest_element_, read_);
     const DeckElementType* known = nullptr;
     if (!errors_.attempt([&] { known = &element_type(*s.keyword); })) return read_unknown_elements(s);
     const DeckElementType& type = *known;
@@ -153,7 +159,7 @@ class DeckMeshReader {
     const std::size_t block = type.kind == DeckElementType::Kind::cell ? block_of(mesh_, type.type) : 0;
     const std::string* set = s.keyword->parameter("ELSET");
     std::vector<Index> members;
-    DeckMesh::Cells made{s.keyword, s.scope, {static_cast<Index>(block), 0}, 0};
+    DeckCells made{s.keyword, s.scope, {static_cast<Index>(block), 0}, 0};
     if (type.kind == DeckElementType::Kind::cell) made.begin.cell = static_cast<Index>(mesh_.blocks[block].size());
     for (DeckCursor at(*s.keyword); at.next_line();) {
       const auto index = static_cast<Index>(elements_.size());
@@ -556,10 +562,11 @@ class DeckMeshReader {
   Mesh mesh_;
   DeckNames names_;
   std::vector<DeckNote> notes_;
-  std::vector<DeckMesh::Cells> read_;
+  std::vector<DeckCells> read_;
   DeckSets node_sets_{"node", "NSET"}, element_sets_{"element", "ELSET"};
   std::vector<DeckElement> elements_;
   DeckFaces faces_;
+  DeckGenerator generator_;
   std::map<std::string, std::vector<CellRef>> surface_cells_;
   std::map<std::string, std::vector<Index>> surface_nodes_;
   std::int64_t node_offset_ = 0, element_offset_ = 0, highest_node_ = 0, highest_element_ = 0, next_number_ = 0;

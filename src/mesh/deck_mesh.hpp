@@ -48,14 +48,7 @@ struct DeckMesh {
   DeckNames names;
   bool is_whole = true;  ///< false: more is wrong than types of elements, and groups are missing
   std::vector<DeckNote> notes{};
-  /// The cells of an *ELEMENT, from `begin` up to `end` of its block.
-  struct Cells {
-    const DeckKeyword* keyword = nullptr;
-    int scope = 0;
-    CellRef begin;
-    Index end = 0;
-  };
-  std::vector<Cells> read{};
+  std::vector<DeckCells> read{};
 };
 
 /// Nodes, cells and groups of a deck: what is no mesh is left alone. Names in loads by number become groups, and so do

@@ -25,6 +25,14 @@ struct DeckElement {
   std::int64_t number = 0;      ///< as written
 };
 
+/// The cells of an *ELEMENT, or of a line of *ELGEN: from `begin` up to `end` of its block.
+struct DeckCells {
+  const DeckKeyword* keyword = nullptr;
+  int scope = 0;
+  CellRef begin;
+  Index end = 0;
+};
+
 /// What a reader has to say of a place of the deck.
 struct DeckNote {
   Location where;

@@ -483,7 +483,9 @@ void translate_section(Translation& t, const Statement& s, const OfSections& sha
   const std::string set = keyword.required("ELSET"), material = keyword.required("MATERIAL");
   const std::string key = key_of(t.mesh.names.element_sets, t.scope(s), set);
   if (key.empty()) keyword.fail("ELSET=" + set, "the name of a set of cells");
-  if (std::ranges::none_of(t.materials, [&](const std::string& name) { return upper_case(name) == material; }))
+  const bool lacks_all = t.materials.empty() && !t.errors.empty();  // of which something has been said
+  if (!lacks_all &&
+      std::ranges::none_of(t.materials, [&](const std::string& name) { return upper_case(name) == material; }))
     keyword.fail("the unknown material " + material,
                  t.materials.empty() ? "the NAME of a *MATERIAL; the deck has none"
                                      : fmt::format("the NAME of a *MATERIAL ({})", fmt::join(t.materials, ", ")),

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "deck/keyword_table.hpp"
@@ -270,10 +271,56 @@ void translate_inclusions(Translation& t, const std::vector<Assignment>& assignm
   if (!has_lines) s.keyword->fail("no surfaces", "ALL EXTERIOR, or lines of two surfaces");
 }
 
+/// What *CONTACT EXCLUSIONS takes out of general contact of all: surfaces that touch nothing, by lines whose first name
+/// is empty, and rigid bodies.
+struct Exclusions {
+  std::vector<std::string> groups;
+  std::set<const DeckRigidBody*> bodies;
+  Location where;
+};
+
+Exclusions exclusions_of(Translation& t) {
+  Exclusions excluded;
+  for (const Statement& s : t.statements.list) {
+    if (s.keyword->name != "CONTACT EXCLUSIONS") continue;
+    for (DeckCursor at(*s.keyword); at.next_line();) {
+      const std::string first(at.field()), second(at.field());
+      at.end_line("two surfaces");
+      if (first.empty() && second.empty()) at.fail("no surface", "one or two");
+      const auto body_of = [&](const std::string& name) {
+        return name.empty() ? nullptr : body_of_cells(t, faces_of(t, s, at, name));
+      };
+      const DeckRigidBody *a = body_of(first), *b = body_of(second.empty() ? first : second);
+      if (a != nullptr && b != nullptr)
+        t.findings.note(at.where(), "rigid surfaces do not touch each other anyway");
+      else if (first.empty() && b != nullptr)
+        excluded.bodies.insert(b);
+      else if (first.empty() && t.rigid_bodies.empty())
+        excluded.groups.push_back(faces_of(t, s, at, second));
+      else
+        t.findings.refuse(
+            *s.keyword, at.where(),
+            first.empty()                                               ? second + " beside rigid bodies"
+            : second.empty() || upper_case(second) == upper_case(first) ? first + " with itself"
+                                                                        : first + " with " + second,
+            "They would touch. A line with the second name alone takes a surface out altogether, where no "
+            "rigid body is met.");
+      excluded.where = at.where();
+    }
+  }
+  return excluded;
+}
+
 void translate_general(Translation& t, const std::map<std::string, Interaction>& all, const Statement& s) {
   const DeckKeyword& inclusions = *s.keyword;
   const std::vector<Assignment> assignments = assignments_of(t, all);
-  if (!inclusions.has("ALL EXTERIOR")) return translate_inclusions(t, assignments, s);
+  if (!inclusions.has("ALL EXTERIOR")) {
+    for (const Statement& other : t.statements.list)
+      if (other.keyword->name == "CONTACT EXCLUSIONS")
+        t.findings.refuse(*other.keyword, other.keyword->where, "exclusions beside chosen surfaces",
+                          "The pairs of *CONTACT INCLUSIONS would touch: leave out those that shall not.");
+    return translate_inclusions(t, assignments, s);
+  }
   Interaction of;
   for (const Assignment& assignment : assignments)
     if (assignment.is_for_all())
@@ -283,11 +330,13 @@ void translate_general(Translation& t, const std::map<std::string, Interaction>&
                         "That of all surfaces would hold, or none where none is given.");
   TableMaker contact(inclusions.where);
   contact.text("name", "general contact").text("kind", "all").text("initial_penetration", "offset");
+  const Exclusions excluded = exclusions_of(t);
+  if (!excluded.groups.empty()) contact.add("exclude", texts_node(excluded.groups, excluded.where));
   add_interaction(t, of, false, contact);
   t.append("contact", contact.node());
   for (DeckRigidBody& body : t.rigid_bodies) {
     const auto side = t.mesh.names.surfaces.find(body.side);
-    if (side == t.mesh.names.surfaces.end()) continue;
+    if (side == t.mesh.names.surfaces.end() || excluded.bodies.contains(&body)) continue;
     TableMaker rigid(body.keyword->where);
     rigid.text("name", "general contact on " + body.side).text("kind", "surface");
     rigid.text("group", t.mesh.names.surfaces.at(all_exterior).group).text("surface", side->second.group);

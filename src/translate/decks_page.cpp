@@ -21,12 +21,13 @@ carom run deck.inp --out out/deck
 carom convert deck.inp -o case.toml      # the same as a case file, and its mesh beside it as case.msh
 ```
 
-A deck is told by its first line that is no comment, which begins with `*` and a letter, whatever the file is called.
+A deck is told by its first line that is no comment, which begins with `*` and a letter, whatever the file is called. Files
+of LS-DYNA, Nastran, Radioss and Ansys are told apart from it, and said to be what they seem to be.
 It is translated into the tree of a case, so that errors of the case name the line of the deck.
 
 **Nothing is dropped silently.** Every keyword and parameter that is not understood is listed with its line. What asks for
 results only, or steers the solver of the other program, is a note. What changes the physics refuses the run. Keywords that
-make nodes or elements, such as `*NGEN`, are refused in any case: the mesh would be another one.
+make nodes or elements, such as `*NFILL`, are refused in any case: the mesh would be another one.
 
 **All findings come in one message**, each with its file and line, in this order:
 - what `--accept "KEYWORD,KEYWORD"` would run without, with the words to copy and what is then lost of each; in the run that
@@ -44,7 +45,9 @@ beginning (four letters, three of a parameter) fits one name only. Keyword lines
 comment; exponents may be written with `D`; names with blanks stand in quotes; `*INCLUDE` counts from the folder of the
 file that it stands in, as `INPUT` of other keywords does, a file of their data lines. Parts may be used by several instances, shifted and turned; numbers restart in every part, and in
 Carom the numbers of an instance count on from the largest before it. Names and numbers of an instance are written
-`INSTANCE.NAME`. Sets given several times are united. Names come out in upper case.
+`INSTANCE.NAME`; messages say "cell 405 of instance PLATE-1". Sets given several times are united. Of a `GENERATE` the numbers that are
+no nodes or elements are left out with a note; where none is one, the range is refused. Names come out in upper case, and are of
+ASCII letters; titles may have any.
 
 ## Groups
 

@@ -105,8 +105,8 @@ bool add_given_inertia(Translation& t, const DeckRigidBody& body, TableMaker& se
     return false;
   }
   section.number("mass", *body.mass).vector("centre_of_mass", body.centre);
-  section.vector("inertia", body.inertia ? moments_in_guide(body) : any_inertia(t, body));
-  if (body.inertia && body.count_imposed(3, 6) < 2 && body.inertia->products != Vec3{})
+  section.vector("inertia", turns ? moments_in_guide(body) : any_inertia(t, body));
+  if (turns && body.count_imposed(3, 6) < 2 && body.inertia->products != Vec3{})
     section.vector("products_of_inertia", body.inertia->products);
   return true;
 }

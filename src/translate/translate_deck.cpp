@@ -236,7 +236,7 @@ void refuse_loose_cells(Translation& t) {
       if (set.starts_with(s.keyword->required("INSTANCE") + "."))
         for (const DeckNames::Cells& cells : list) remove(cells.group);
   }
-  for (const DeckMesh::Cells& read : t.mesh.read) {
+  for (const DeckCells& read : t.mesh.read) {
     const std::vector<CellRef> own(loose.lower_bound(read.begin), loose.lower_bound({read.begin.block, read.end}));
     if (own.empty()) continue;
     const std::string* set = read.keyword->parameter("ELSET");
@@ -270,8 +270,8 @@ Attempt attempt(std::string bytes, const std::string& path, const std::vector<st
   TableMaker of_mesh(top);
   of_mesh.text("file", std::filesystem::path(path).filename().string());
   t.root.members.push_back({"mesh", top, {}});
-  if (mesh.is_whole) t.rigid_bodies = rigid_bodies_of(t);
   const std::size_t before_bodies = made.errors.size();
+  if (mesh.is_whole) t.rigid_bodies = rigid_bodies_of(t);
   translate_bodies(t);
   if (mesh.is_whole && made.errors.size() == before_bodies) refuse_loose_cells(t);
   if (has_steps && mesh.is_whole) translate_on_mesh(t);

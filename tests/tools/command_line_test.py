@@ -40,7 +40,7 @@ class CommandLine(unittest.TestCase):
             deck.write_text("$ a comment\n*KEYWORD\n*NODE\n1,0,0,0\n*END\n")
             code, _, error = carom("check", str(deck))
         self.assertEqual(code, 2)
-        self.assertIn("found a deck of LS-DYNA", error)
+        self.assertIn("seems to be a deck of LS-DYNA", error)
 
     def test_nodes_where_springs_end_in_the_ground_are_not_counted(self):
         code, out, _ = carom("check", str(CASES / "springs/block_on_springs.toml"))

@@ -217,6 +217,75 @@ TEST(MeshDeck, InstancesHaveTheirOwnNumbersAndPlaces) {
   for (const Index n : mesh.nodes_of("J.TOP")) EXPECT_EQ(mesh.coordinates[at(n)][2], 7.0);
 }
 
+/// A block of 2 x 3 x 2 cells from its corners' lines, as the Abaqus Keywords Guide has *NGEN and *ELGEN: numbers of
+/// nodes grow by 1 along x, 10 along y and 100 along z.
+TEST(MeshDeck, NodesAndElementsThatAreGenerated) {
+  std::string nodes, lines;
+  for (const int z : {0, 1, 2})
+    for (const int y : {0, 1, 2, 3}) {
+      const int first = 1 + 10 * y + 100 * z;
+      nodes += fmt::format("{}, 0, {}, {}\n{}, 4, {}, {}\n", first, y, z, first + 2, y, z);
+      lines += fmt::format("{}, {}\n", first, first + 2);
+    }
+  const std::string made = "*NODE\n" + nodes + "*NGEN, NSET=INNER\n" + lines +
+                           "*ELEMENT, TYPE=C3D8\n1, 1,2,12,11, 101,102,112,111\n*ELGEN, ELSET=ALL\n"
+                           "1, 2, 1, 1, 3, 10, 10, 2, 100, 100\n";
+  const Mesh mesh = read(made);
+  ASSERT_EQ(mesh.node_count(), 36U);
+  ASSERT_EQ(mesh.cell_groups.at("ALL").size(), 12U);
+  EXPECT_EQ(mesh.node_groups.at("INNER").size(), 36U);  // with the ends
+  double volume = 0.0;
+  const CellBlock& cells = *mesh.block(CellType::hexa8);
+  for (Index k = 0; k < 12; ++k) {
+    const auto n = cells.nodes(k);
+    const Vec3 a = mesh.coordinates[at(n[0])], b = mesh.coordinates[at(n[6])];
+    volume += (b[0] - a[0]) * (b[1] - a[1]) * (b[2] - a[2]);  // boxes along the axes
+  }
+  EXPECT_NEAR(volume, 4.0 * 3.0 * 2.0, 1e-13);
+  EXPECT_EQ(std::set<std::int64_t>(cells.file_numbers.begin(), cells.file_numbers.end()),
+            (std::set<std::int64_t>{1, 2, 11, 12, 21, 22, 101, 102, 111, 112, 121, 122}));
+}
+
+TEST(MeshDeck, WhatCannotBeGeneratedIsRefused) {
+  const auto message = [](const std::string& more) {
+    try {
+      read(kTwoCubes + more);
+    } catch (const CaseError& error) {
+      return std::string(error.what());
+    }
+    return std::string("no error");
+  };
+  const auto has = [&](const std::string& more, const std::string& part) {
+    EXPECT_NE(message(more).find(part), std::string::npos) << message(more);
+  };
+  has("*NGEN\n1, 99\n", "*NGEN: found node 99, which is not there; expected two nodes of a *NODE before this line");
+  has("*NGEN\n1, 4, 2\n",
+      "*NGEN: found 1, 4, 2; expected first, last and an increment that leads from one to the other");
+  has("*NGEN\n1, 3\n", "*NGEN: found node 2 a second time");
+  has("*NGEN, LINE=C\n1, 3\n", "*NGEN: found LINE=C; expected nodes on straight lines");
+  has("*ELGEN\n9, 2\n", "*ELGEN: found element 9, which is not there");
+  has("*ELGEN\n1, 2\n", "*ELGEN: found element 2 a second time");
+  has("*ELGEN\n1, 2, 50, 50\n", "*ELGEN: found node 51 of element 51, which is not there");
+  has("*ELGEN\n1, 2000000000\n", "expected from 1 to 20000000");
+}
+
+/// Numbers in messages are those that the instance writes.
+TEST(MeshDeck, NumbersOfInstancesHaveTheirNames) {
+  const std::string cube = "*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n5,0,0,1\n6,1,0,1\n7,1,1,1\n80,0,1,1\n";
+  const Mesh mesh =
+      read("*PART, NAME=P\n" + cube +
+           "*ELEMENT, TYPE=C3D8, ELSET=E\n405,1,2,3,4,5,6,7,80\n*END PART\n*ASSEMBLY, NAME=A\n"
+           "*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n*INSTANCE, NAME=J, PART=P\n0., 0., 3.\n*END INSTANCE\n"
+           "*NODE\n1001, 9., 9., 9.\n*END ASSEMBLY\n");
+  std::set<std::string> nodes;
+  for (Index n = 0; n < static_cast<Index>(mesh.node_count()); ++n) nodes.insert(mesh.node_label(n));
+  EXPECT_TRUE(nodes.contains("80 of instance I") && nodes.contains("1 of instance J") && nodes.contains("1001"));
+  std::set<std::string> cells;
+  for (const CellRef& cell : mesh.cell_groups.at("I.E")) cells.insert(mesh.cell_label(cell));
+  for (const CellRef& cell : mesh.cell_groups.at("J.E")) cells.insert(mesh.cell_label(cell));
+  EXPECT_EQ(cells, (std::set<std::string>{"405 of instance I", "405 of instance J"}));
+}
+
 TEST(MeshDeck, NodesAndFacesThatLoadsNameAreGroups) {
   const Mesh mesh = read(kTwoCubes + "*BOUNDARY\n3, 1\n*DLOAD\nALL, P1, 2.\n2, P2, 1.\n");
   EXPECT_EQ(numbers_of(mesh, "3"), (std::set<std::int64_t>{3}));

@@ -85,6 +85,16 @@ TEST(TerminalText, HasNoControlCharacters) {
             "\\x9b31m");  // CSI of ISO 6429 in UTF-8
 }
 
+// RFC 3629: what is no UTF-8 is read as ISO 8859-1, whose bytes are the first 256 characters of Unicode.
+TEST(TerminalText, KeepsTheLettersOfMessages) {
+  EXPECT_EQ(as_utf8("Sto\xc3\x9f \xe2\x82\xac"), "Sto\xc3\x9f \xe2\x82\xac");
+  EXPECT_EQ(as_utf8("Sto\xdf \xb5m\x95"), "Sto\xc3\x9f \xc2\xb5m?");
+  EXPECT_EQ(as_utf8("a\x1b[2J"), "a?[2J");
+  EXPECT_EQ(printable("F\xc3\x9cSSE"), "'F\xc3\x9cSSE'");
+  EXPECT_EQ(printable("F\xdcSSE\x07\xc2\x9b"), "'F\\xdcSSE\\x07\\xc2\\x9b'");
+  EXPECT_EQ(printable(std::string(39, 'a') + "\xc3\x9c"), "'" + std::string(39, 'a') + "...'");  // whole characters
+}
+
 TEST(TerminalText, ColoursTheWordsThatLinesBeginWith) {
   EXPECT_EQ(with_colours("good: 3 of 3\n2 steps\n"), "\x1b[1;32mgood:\x1b[0m 3 of 3\n2 steps\n");
   EXPECT_EQ(with_colours("a\nwarning: b: error: c"), "a\n\x1b[1;33mwarning:\x1b[0m b: error: c");

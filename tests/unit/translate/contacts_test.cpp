@@ -35,6 +35,37 @@ std::string with_rigid_floor(const std::string& nodes, const std::string& side) 
                   "*DYNAMIC, EXPLICIT\n, 1e-3");
 }
 
+/// Abaqus keyword *CONTACT EXCLUSIONS: without a first name it is all exterior faces that the second does not touch.
+TEST(TranslateContacts, WhatIsExcludedTouchesNothing) {
+  const std::string all = "*CONTACT INCLUSIONS, ALL EXTERIOR\n*CONTACT EXCLUSIONS\n";
+  const Case made = case_from(generally(all + ", FLOOR\n"));
+  ASSERT_EQ(made.contacts.size(), 1U);
+  const auto& kind = std::get<CaseAll>(made.contacts[0].of);
+  ASSERT_EQ(kind.exclude.size(), 1U);
+  EXPECT_EQ(*kind.exclude[0], "FLOOR");
+  for (const char* pair : {"FOOT, FLOOR\n", "FLOOR,\n", "FLOOR, FLOOR\n"}) {
+    EXPECT_NE(message_of(generally(all + pair))
+                  .find("They would touch. A line with the second name alone takes a surface "
+                        "out altogether, where no rigid body is met."),
+              std::string::npos)
+        << pair;
+    EXPECT_TRUE(
+        std::get<CaseAll>(case_from(generally(all + pair), {"CONTACT EXCLUSIONS"}).contacts[0].of).exclude.empty());
+  }
+  const std::string rigid =
+      replaced(with_rigid_floor("5,6,7,8", ", SPOS"), "*CONTACT PAIR, INTERACTION=I\nFOOT, FLOOR\n", "");
+  const auto with = [&](const std::string& lines) {
+    return replaced(rigid, "*CLOAD", "*CONTACT\n" + all + lines + "*CLOAD");
+  };
+  EXPECT_EQ(case_from(with("")).contacts.size(), 2U);
+  EXPECT_EQ(case_from(with(", FLOOR\n")).contacts.size(), 1U);
+  EXPECT_EQ(case_from(with("FLOOR, FLOOR\n")).contacts.size(), 2U);
+  EXPECT_NE(message_of(with(", FOOT\n")).find("FOOT beside rigid bodies"), std::string::npos);
+  EXPECT_NE(message_of(generally("*CONTACT INCLUSIONS\nFOOT, FLOOR\n*CONTACT EXCLUSIONS\nFOOT,\n"))
+                .find("exclusions beside chosen surfaces"),
+            std::string::npos);
+}
+
 /// z of the normal of the first face of a group, by the right-hand rule.
 double normal_z(const std::string& deck, const std::string& group) {
   const Mesh mesh = read_deck_mesh(deck, "x.inp", test::no_file);

@@ -44,7 +44,9 @@ const std::vector<Spoiled> spoiled_decks{
      ":32: found a * alone; expected a keyword such as *NODE"},
     {"open_quote", "NSET=NALL", "NSET=\"NALL",
      ":3: *NODE: found '\"NALL'; expected a closing quotation mark. Names with blanks stand in \"quotes\"."},
-    {"latin_name", "NSET=NALL", "NSET=N\xc4", ":3: *NODE: found 'NSET=N\\xc4'; expected letters of ASCII. Rename it."},
+    {"latin_name", "NSET=NALL", "NSET=N\xc4",
+     ":3: *NODE: found 'NSET=N\xc3\x84'; expected letters of ASCII, without umlauts and accents. Rename it, wherever "
+     "the deck has it."},
     {"include_nothing", "*HEADING", "*INCLUDE\n*HEADING",
      ":1: *INCLUDE: found no file; expected INPUT=NAME. *INCLUDE, INPUT=mesh.inp reads that file in this place."},
     {"include_missing", "*HEADING", "*INCLUDE, INPUT=a.inc\n*HEADING",
@@ -73,7 +75,7 @@ const std::vector<Spoiled> spoiled_decks{
      ":25: *NSET: found 'NOWHERE'; expected the number of a node or the name of a set before this one"},
     {"set_parameter", "GENERATE\n1, 4", "GENERATES\n1, 4",
      ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
-     "\"NSET\" runs without:\n  x.inp:24: *NSET: the parameter GENERATES is not known. What it changes would be lost."},
+     "\"NSET\" runs without:\n  x.inp:24: *NSET: the parameter GENERATES is not known. Did you mean GENERATE? What it changes would be lost."},
     {"set_range", "GENERATE\n1, 4", "GENERATE\n4, 1",
      ":25: *NSET: found 4, 1, 1; expected first, last and a positive increment"},
     {"set_no_name", "*NSET, NSET=BASE, GENERATE", "*NSET, GENERATE",
@@ -88,8 +90,8 @@ const std::vector<Spoiled> spoiled_decks{
     {"surface_seven", "LOWER, S2", "LOWER, S7",
      ":29: *SURFACE: found 'S7'; expected S1 to S6, SPOS, SNEG or nothing. Faces are numbered as Abaqus does "
      "(docs/decks.md)."},
-    {"ngen", "*NSET, NSET=BASE", "*NGEN\n1,4\n*NSET, NSET=BASE",
-     ":24: *NGEN: found a keyword that Carom does not carry out; expected nodes and elements in full. Nodes made by "
+    {"nfill", "*NSET, NSET=BASE", "*NFILL\nA,B,4\n*NSET, NSET=BASE",
+     ":24: *NFILL: found a keyword that Carom does not carry out; expected nodes and elements in full. Nodes made by "
      "the other program are missing. Write the deck with all its nodes and elements."},
     {"part_open", "*HEADING", "*PART, NAME=P\n*HEADING",
      ":1: *PART: found no end; expected *END PART after it. The file may have been cut off."},
@@ -119,8 +121,8 @@ const std::vector<Spoiled> spoiled_decks{
     {"section_set", "ELSET=LOWER, MATERIAL", "ELSET=LOWEST, MATERIAL",
      ":37: *SOLID SECTION: found ELSET=LOWEST; expected the name of a set of cells"},
     {"section_material", "ELSET=LOWER, MATERIAL=STEEL", "ELSET=LOWER, MATERIAL=STEAL",
-     ":37: part[0].material: found the unknown name \"STEAL\"; expected the name of a [materials.NAME] (STEEL). Did "
-     "you mean \"STEEL\"?"},
+     ":37: *SOLID SECTION: found the unknown material STEAL; expected the NAME of a *MATERIAL (STEEL). Did you mean "
+     "STEEL?"},
     {"boundary_set", "BASE, 1, 3", "BASIS, 1, 3",
      ":40: *BOUNDARY: found \"BASIS\"; expected the name of a node set or the number of a node. Names of an instance "
      "have the instance before them, as in PART-1-1.TOP."},
@@ -261,7 +263,7 @@ const std::vector<Spoiled> spoiled_decks{
      "the instance before them, as in PART-1-1.TOP."},
     {"unknown_keyword", "*BOUNDARY\nBASE", "*ELASTICS\n*BOUNDARY\nBASE",
      ": found something that Carom does not carry over; expected a deck that loses nothing of its physics. --accept "
-     "\"ELASTICS\" runs without:\n  x.inp:39: *ELASTICS: an unknown keyword. What it means would be lost."},
+     "\"ELASTICS\" runs without:\n  x.inp:39: *ELASTICS: an unknown keyword. Did you mean *ELASTIC? What it means would be lost."},
 };
 
 INSTANTIATE_TEST_SUITE_P(Decks, TranslateMalformed, testing::ValuesIn(spoiled_decks),
