@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <initializer_list>
+#include <utility>
 
 #include "math/vec3.hpp"
 
@@ -23,31 +25,6 @@ Weights direction_weights(const TurningBody& body, std::size_t k) {
   return w;
 }
 
-/// Equations of one body.
-class GuideEquations {
- public:
-  GuideEquations(const TurningBody& body, const Location& where, Model& model)
-      : body_(body), where_(where), model_(model) {}
-
-  /// Sum of the terms of each component; the dependent displacement has the largest coefficient.
-  void add(const std::string& held, std::initializer_list<std::pair<std::size_t, Weights>> components) {
-    LinearEquation equation;
-    equation.name = fmt::format("the guide of rigid body \"{}\" {}", body_.name, held);
-    equation.where = where_;
-    for (const auto& [c, w] : components)
-      for (std::size_t a = 0; a < 4; ++a)
-        if (w[a] != 0.0) equation.terms.push_back({body_.nodes[a], static_cast<int>(c), w[a]});
-    const auto size = [](const LinearEquation::Term& term) { return std::abs(term.coefficient); };
-    std::iter_swap(equation.terms.begin(), std::ranges::max_element(equation.terms, {}, size));
-    model_.equations.push_back(std::move(equation));
-  }
-
- private:
-  const TurningBody& body_;
-  const Location& where_;
-  Model& model_;
-};
-
 Weights opposite(Weights w) {
   for (double& each : w) each = -each;
   return w;
@@ -56,27 +33,37 @@ Weights opposite(Weights w) {
 }  // namespace
 
 void add_guide(const CaseGuide& guide, const TurningBody& body, const Location& where, Model& model) {
-  GuideEquations equations(body, where, model);
+  // A sum over the weighted nodes of each component; the dependent displacement has the largest coefficient.
+  const auto hold = [&](const std::string& held, std::initializer_list<std::pair<std::size_t, Weights>> components) {
+    LinearEquation equation;
+    equation.name = fmt::format("the guide of rigid body \"{}\" {}", body.name, held);
+    equation.where = where;
+    for (const auto& [c, w] : components)
+      for (std::size_t a = 0; a < 4; ++a)
+        if (w[a] != 0.0) equation.terms.push_back({body.nodes[a], static_cast<int>(c), w[a]});
+    const auto size = [](const LinearEquation::Term& term) { return std::abs(term.coefficient); };
+    std::iter_swap(equation.terms.begin(), std::ranges::max_element(equation.terms, {}, size));
+    model.equations.push_back(std::move(equation));
+  };
   if (guide.blocked) {
     const Weights point = corner_weights(body, guide.blocked_at ? **guide.blocked_at : body.centre);
     for (std::size_t c = 0; c < 3; ++c)
-      if (guide.holds_along(c)) equations.add(fmt::format("along {}", axis_names[c]), {{c, point}});
+      if (guide.holds_along(c)) hold(fmt::format("along {}", axis_names[c]), {{c, point}});
   }
   if (!guide.blocked_turns) return;
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    const std::string about = fmt::format("about {}", axis_names[k]);
     if (!guide.holds_about(k)) {  // the one axis that it may turn about
       const Weights axis = direction_weights(body, k);
-      equations.add(fmt::format("about {}", axis_names[j]), {{i, axis}});
-      equations.add(fmt::format("about {}", axis_names[i]), {{j, axis}});
+      hold(fmt::format("about {}", axis_names[j]), {{i, axis}});
+      hold(fmt::format("about {}", axis_names[i]), {{j, axis}});
       return;
     }
   }
   for (std::size_t k = 0; k < 3; ++k) {
     const std::size_t i = (k + 1) % 3, j = (k + 2) % 3;
-    equations.add(fmt::format("about {}", axis_names[k]),
-                  {{j, direction_weights(body, i)}, {i, opposite(direction_weights(body, j))}});
+    hold(fmt::format("about {}", axis_names[k]),
+         {{j, direction_weights(body, i)}, {i, opposite(direction_weights(body, j))}});
   }
 }
 

@@ -9,7 +9,6 @@
 #include "base/errors.hpp"
 #include "base/terminal_text.hpp"
 #include "base/text_lines.hpp"
-#include "deck/deck.hpp"
 #include "deck/keyword_table.hpp"
 
 namespace carom {
@@ -25,7 +24,7 @@ bool is_one_of(const std::array<std::string_view, n>& words, std::string_view wo
 
 /// The first word of a line in upper case, up to a blank, a comma or the * of wide fields.
 std::string first_word(std::string_view line) {
-  return upper_case(line.substr(0, line.find_first_of(" \t,*", 1)));
+  return without_blanks(line.substr(0, line.find_first_of(" \t,*", 1)));
 }
 
 /// Names of cards that no other text begins lines with (MSC Nastran Quick Reference Guide, bulk data).
@@ -33,7 +32,7 @@ bool is_nastran(std::string_view line) {
   constexpr std::array<std::string_view, 10> cards{"GRID",   "CHEXA",  "CTETRA", "CPENTA", "CQUAD4",
                                                    "CTRIA3", "PSOLID", "PSHELL", "CEND",   "ENDDATA"};
   if (line.find('=') != std::string_view::npos) return false;
-  return is_one_of(cards, first_word(line)) || upper_case(line).starts_with("BEGIN BULK");
+  return is_one_of(cards, first_word(line)) || without_blanks(line).starts_with("BEGINBULK");
 }
 
 bool is_ansys(std::string_view line) {
@@ -48,7 +47,7 @@ bool is_radioss(std::string_view line) {
 }
 
 bool is_dyna(std::string_view line) {
-  return line.starts_with('*') && is_dyna_keyword(upper_case(trimmed(line.substr(1, line.find(',') - 1))));
+  return line.starts_with('*') && is_dyna_keyword(without_blanks(line.substr(1, line.find(',') - 1)));
 }
 
 /// nullptr where it may be Carom's to read.

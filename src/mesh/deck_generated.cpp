@@ -65,6 +65,9 @@ DeckGenerator::Copies DeckGenerator::copies_of(DeckCursor& at, const char* what)
                 one_or(at, "the increment of the elements")};
   if (copies.count < 1 || copies.count > most_of_a_line)
     at.fail(fmt::format("{} {}", copies.count, what), fmt::format("from 1 to {}", most_of_a_line));
+  for (const std::int64_t increment : {copies.nodes, copies.elements})
+    if (increment < -highest || increment > highest)
+      at.fail(fmt::format("the increment {}", increment), fmt::format("from -{0} to {0}", highest));
   return copies;
 }
 
