@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "math/vec3.hpp"
+#include "model/compatibility.hpp"
 #include "model/turning_body.hpp"
 #include "run/run.hpp"
 #include "run_fixture.hpp"
@@ -134,7 +135,10 @@ TEST(Guides, ABodyThatIsNotBalancedSpinsSteadilyAboutItsHinge) {
 // Newton's law along the one axis that is left: v = F t / M, though the force is off the centre, and the weight g sin
 // of an inclined guide does not exist: what pulls along x and y is borne.
 TEST(Guides, ThatBlockAllTurnsLetABodySlide) {
-  for (const Scheme& scheme : schemes) {
+  for (const SchemeTraits& traits : scheme_table) {
+    if (!traits.has_inertia || traits.has_massless_contact) continue;  // they are refused
+    const std::string name(traits.name);
+    const Scheme scheme{name.c_str(), is_explicit(traits.kind) ? "" : "step = 0.005\n"};
     SCOPED_TRACE(scheme.kind);
     const Simulation simulation(parse_case(
         replaced(brick("blocked = [\"x\", \"y\"]\nblocked_turns = [\"x\", \"y\", \"z\"]\n",
@@ -148,8 +152,8 @@ TEST(Guides, ThatBlockAllTurnsLetABodySlide) {
     while (!march.at_end()) march.step();
     ASSERT_FALSE(march.has_failed()) << march.message();
     const Seen last = seen(simulation, march.state());
-    // 1/2 (F / M) t^2, to the order of the steps and the strain of the axes
-    EXPECT_NEAR(last.now.centre[2], 0.25, 1e-3 * 0.25);
+    // 1/2 (F / M) t^2; schemes of first order lag by up to a step of 0.005
+    EXPECT_NEAR(last.now.centre[2], 0.25, 0.005 * 0.5);
     EXPECT_NEAR(last.rate.centre[2], 0.5, 1e-3 * 0.5);
     EXPECT_NEAR(last.now.centre[0], 0.0, 1e-12);
     EXPECT_NEAR(last.now.centre[1], 0.0, 1e-12);
