@@ -62,12 +62,14 @@ struct FaceOverlaps::Slave : OverlapColumn {
   std::size_t f;
   PlacedFacet reference;
   double radius = 0.0;  ///< of a ball about its centre that holds it
+  double bulge;         ///< distance_from_facet
 
-  Slave(std::size_t number, const PlacedFacet& now, const PlacedFacet& before)
+  Slave(std::size_t number, const PlacedFacet& now, const PlacedFacet& before, double from_facet)
       : OverlapColumn(now),
         f(number),
         reference(before),
         radius(radius_about(frame().position, now)),
+        bulge(from_facet),
         quotient_(now.size == 4 ? 0.0 : quotient_at(facet_centre(now.size))) {}
   /// Reference measure over the current one; the same everywhere but on quadrilaterals.
   double measure_at(const ParentPoint& at) const { return placed().size == 4 ? quotient_at(at) : quotient_; }
@@ -121,7 +123,8 @@ void FaceOverlaps::update(const ContactMotion& motion, std::vector<std::array<In
     const PlacedFacet facet = place(master_facet(static_cast<Index>(g)), motion.x);
     const ParentPoint centre = facet_centre(facet.size);
     const FacetFrame frame = facet_frame(facet, centre.xi, centre.eta);
-    looks_[g] = {frame.position, frame.normal, radius_about(frame.position, facet)};
+    looks_[g] = {frame.position, frame.normal, radius_about(frame.position, facet),
+                 distance_from_facet(master_faces_[g], master_facet(static_cast<Index>(g)), motion.x)};
   });
 }
 
@@ -178,6 +181,11 @@ double FaceOverlaps::most_steep(Index g, double facing) const {
   return std::clamp(2.0 * std::sqrt(std::max(0.0, 1.0 - facing * facing)) / facing, 1.0, most);
 }
 
+/// By how much, along the slave's normal, two faces may be nearer to each other than their facets.
+double FaceOverlaps::nearer_by(const Slave& slave, Index g, double facing) const {
+  return (slave.bulge + looks_[static_cast<std::size_t>(g)].bulge) / facing;
+}
+
 /// Enters master g and appends its points, if it counts.
 void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const {
   const Look& look = looks_[static_cast<std::size_t>(g)];
@@ -191,7 +199,8 @@ void FaceOverlaps::add_master(const Slave& slave, Index g, const ContactMotion& 
   const bool are_means = use_ == OverlapUse::means;
   const bool is_high = !slave_faces_[slave.f].is_linear || !master_face(g).is_linear;
   const std::size_t before = work.points.size();
-  const OverlapExtent extent = add_overlap(slave, seen, {is_high || are_means, !are_means}, work.points);
+  const double nearer = are_means ? 0.0 : nearer_by(slave, g, facing);
+  const OverlapExtent extent = add_overlap(slave, seen, {is_high || are_means, !are_means, nearer}, work.points);
   if (work.points.size() == before) return;
   const bool is_deep = extent.least_gap < -sideways_depth * size_;
   // A sliver too deep for its width belongs to what passes by the border of the other facet; at the start not where
@@ -230,7 +239,8 @@ void FaceOverlaps::find(std::size_t f, const ContactMotion& motion, FacetPoints&
   found.least_gap = INFINITY;
   const std::span<const Index> candidates = broad_phase_.targets_of(f);
   if (candidates.empty()) return;
-  const Slave slave(f, place(slave_.facets[f], motion.x), place(slave_.facets[f], X_));
+  const Slave slave(f, place(slave_.facets[f], motion.x), place(slave_.facets[f], X_),
+                    distance_from_facet(slave_faces_[f], slave_.facets[f], motion.x));
   Work work;
   for (const Index g : candidates) add_master(slave, g, motion, work);
   for (const Index g : std::exchange(work.slivers, {})) add_master(slave, g, motion, work);
@@ -321,7 +331,7 @@ void FaceOverlaps::add_borders(const Slave& slave, const Work& work, std::size_t
   for (std::size_t edge = 0; edge < static_cast<std::size_t>(master.placed.size); ++edge) {
     if (!ends_at(master.facet, edge)) continue;
     border.clear();
-    add_border(slave, master.seen, edge, border);
+    add_border(slave, master.seen, edge, nearer_by(slave, master.facet, work.met[k].facing), border);
     for (const BorderPoint& at : border) {
       if (work.met[k].may_stand_beyond && stands_beyond(slave, motion, at.slave, at.gap)) continue;
       const ParentPoint own_at = in_parent(own, slave_.facets[slave.f], at.slave),

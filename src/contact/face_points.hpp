@@ -93,10 +93,11 @@ class FaceOverlaps : public FacePointFinder {
  private:
   struct Slave;
   struct Met;
-  /// A master facet at motion.x: its middle, its normal there, and a ball about the middle that holds it.
+  /// A master facet at motion.x: its middle, its normal there, a ball about the middle that holds it, and how far its
+  /// face is from it.
   struct Look {
     Vec3 centre{}, normal{};
-    double radius = 0.0;
+    double radius = 0.0, bulge = 0.0;
   };
   struct Work;
   void add_master(const Slave& slave, Index g, const ContactMotion& motion, Work& work) const;
@@ -104,6 +105,7 @@ class FaceOverlaps : public FacePointFinder {
   bool stands_beyond(const Slave& slave, const ContactMotion& motion, const ParentPoint& at, double gap) const;
   bool goes_on(Index g, const Work& work) const;
   double most_steep(Index g, double facing) const;
+  double nearer_by(const Slave& slave, Index g, double facing) const;
   void add_borders(const Slave& slave, const Work& work, std::size_t k, const ContactMotion& motion,
                    FacetPoints& found) const;
   double width_at(const Slave& slave, const ParentPoint& at) const;

@@ -98,11 +98,11 @@ void Clipping::add(const Polygon& polygon) {
   double least = std::numeric_limits<double>::infinity();
   bool is_divided = false;
   for (std::size_t i = 0; i < polygon.size; ++i) {
-    gap[i] = gap_over(polygon.corner[i]);
+    gap[i] = gap_over(polygon.corner[i]) - rule.nearer;
     least = std::min(least, gap[i]);
     is_divided = is_divided || (gap[i] < 0.0) != (gap[0] < 0.0);
   }
-  extent.least_gap = std::min(extent.least_gap, least);
+  extent.least_gap = std::min(extent.least_gap, least + rule.nearer);
   extent.area += polygon.area();
   const Polygon part = rule.only_behind && is_divided ? part_behind(polygon, gap) : polygon;
   const bool is_curved = slave.size == 4 || master.size == 4;  // what is integrated may be no polynomial
@@ -205,18 +205,21 @@ void Clipping::add_moment_points(const Polygon& polygon) const {
     add_point({o[0] + cx + l_11 * s[k], o[1] + cy + l_21 * s[k] + l_22 * t[k]}, area / 3.0);
 }
 
-OverlapExtent add_segment_overlap(const OverlapColumn& slave, const PlacedFacet& seen, bool only_behind,
+OverlapExtent add_segment_overlap(const OverlapColumn& slave, const PlacedFacet& seen, const OverlapRule& rule,
                                   std::vector<OverlapPoint>& points) {
-  static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
+  static const std::vector<QuadraturePoint> gauss = gauss_legendre(3);
   const double half = 0.5 * slave.measure(), start = seen.x[0][0], end = seen.x[1][0];
   double low = std::max(-half, std::min(start, end)), high = std::min(half, std::max(start, end));
   if (!(high - low > negligible * std::min(2.0 * half, measure(seen)))) return {};
   const double slope = (seen.x[1][2] - seen.x[0][2]) / (end - start);
   const double gap_low = seen.x[0][2] + slope * (low - start), gap_high = seen.x[0][2] + slope * (high - start);
   const OverlapExtent extent{high - low, std::min(gap_low, gap_high)};
-  if (only_behind && gap_low < 0.0 && gap_high > 0.0) high = low + (high - low) * gap_low / (gap_low - gap_high);
-  if (only_behind && gap_low > 0.0 && gap_high < 0.0) low = high - (high - low) * gap_high / (gap_high - gap_low);
-  for (const QuadraturePoint& point : rule) {
+  if (rule.only_behind) {
+    const double at_low = gap_low - rule.nearer, at_high = gap_high - rule.nearer;
+    if (at_low < 0.0 && at_high > 0.0) high = low + (high - low) * at_low / (at_low - at_high);
+    if (at_low > 0.0 && at_high < 0.0) low = high - (high - low) * at_high / (at_high - at_low);
+  }
+  for (const QuadraturePoint& point : gauss) {
     const double s = 0.5 * (low + high) + 0.5 * (high - low) * point.x;
     const double master_xi = std::clamp((2.0 * s - start - end) / (end - start), -1.0, 1.0);
     points.push_back({{s / half, 0.0},
@@ -233,7 +236,7 @@ OverlapExtent add_overlap(const OverlapColumn& slave, const PlacedFacet& seen_ma
                           std::vector<OverlapPoint>& points) {
   const PlacedFacet& seen_slave = slave.seen();
   assert((seen_slave.size == 2) == (seen_master.size == 2) && seen_slave.size > 1 && seen_master.size > 1);
-  if (seen_slave.size == 2) return add_segment_overlap(slave, seen_master, rule.only_behind, points);
+  if (seen_slave.size == 2) return add_segment_overlap(slave, seen_master, rule, points);
   const Shadow of_master(seen_master);
   Clipping overlap{
       {BilinearPatch(seen_slave), seen_slave.size}, {BilinearPatch(seen_master), seen_master.size}, rule, points};
@@ -258,21 +261,22 @@ ParentPoint on_edge(int size, std::size_t edge, double s) {
   return {p.xi + s * (q.xi - p.xi), p.eta + s * (q.eta - p.eta)};
 }
 
-void add_end(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t end, std::vector<BorderPoint>& points) {
+void add_end(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t end, double nearer,
+             std::vector<BorderPoint>& points) {
   constexpr double inside_by = 1.0 - 2e-3;  // as along the sides of polygons
   const double half = 0.5 * slave.measure(), at = seen.x[end][0], gap = seen.x[end][2];
-  if (!(std::abs(at) < inside_by * half) || !(gap < 0.0)) return;
+  if (!(std::abs(at) < inside_by * half) || !(gap < nearer)) return;
   const double sign = at > seen.x[1 - end][0] ? 1.0 : -1.0;
   points.push_back({{at / half, 0.0}, {end == 0 ? -1.0 : 1.0, 0.0}, 1.0, gap, scaled(slave.axis_1(), sign)});
 }
 
 }  // namespace
 
-void add_border(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t edge,
+void add_border(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t edge, double nearer,
                 std::vector<BorderPoint>& points) {
   static const std::vector<QuadraturePoint> rule = gauss_legendre(3);
   if (seen.size == 2) {
-    add_end(slave, seen, edge, points);
+    add_end(slave, seen, edge, nearer, points);
     return;
   }
   const SeenFacet over_slave{BilinearPatch(slave.seen()), slave.seen().size};
@@ -289,7 +293,7 @@ void add_border(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t
   const double gap_a = seen.x[edge][2] - over_slave.height(a), gap_b = seen.x[next][2] - over_slave.height(b);
   for (std::size_t i = 0; i < slave.shadow().count; ++i) {
     Stretch stretch = inside(a, b, slave.shadow().part[i]);
-    stretch.keep_positive(-gap_a, -gap_b);
+    stretch.keep_positive(nearer - gap_a, nearer - gap_b);
     if (!(stretch.high > stretch.low)) continue;
     for (const QuadraturePoint& point : rule) {
       const double s = 0.5 * (stretch.low + stretch.high) + 0.5 * (stretch.high - stretch.low) * point.x;
@@ -297,7 +301,7 @@ void add_border(const OverlapColumn& slave, const PlacedFacet& seen, std::size_t
       const std::optional<ParentPoint> on_slave = over_slave.over(p);
       if (!on_slave) continue;
       const double gap = seen.x[edge][2] + s * (seen.x[next][2] - seen.x[edge][2]) - over_slave.height(p);
-      if (gap < 0.0)
+      if (gap < nearer)
         points.push_back({*on_slave, on_edge(seen.size, edge, s),
                           0.5 * point.weight * (stretch.high - stretch.low) * length, gap, outward});
     }

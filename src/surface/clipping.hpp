@@ -30,6 +30,9 @@ struct OverlapRule {
   /// Overlaps that the gap 0 divides have points where it is negative alone. The triangles of the rule of 7 points then
   /// are those from the polygon's centroid, too.
   bool only_behind = false;
+  /// Gaps below this count as behind there: what the faces that the facets are pieces of may be nearer to each other
+  /// by.
+  double nearer = 0.0;
 };
 
 /// The size of an overlap, whether it has points or not.
@@ -55,14 +58,14 @@ OverlapExtent add_overlap(const OverlapColumn& slave, const PlacedFacet& seen_ma
 struct BorderPoint {
   ParentPoint slave, master;  ///< inside of the slave, on the edge of the master
   double length = 0.0;        ///< of the border that the point stands for; 1 for segments
-  double gap = 0.0;           ///< as of OverlapPoint, negative
+  double gap = 0.0;           ///< as of OverlapPoint
   Vec3 outward{};             ///< unit vector in the slave's plane, normal to the border, away from the master
 };
 
 /// Appends points of edge `edge` of the master (from its node `edge` to the next; of a segment that node) where it lies
-/// over the inside of the slave, by more than round-off, and behind it: 3 Gauss points. An overlap grows by what this
-/// border moves outward.
-void add_border(const OverlapColumn& slave, const PlacedFacet& seen_master, std::size_t edge,
+/// over the inside of the slave, by more than round-off, and behind it or less than `nearer` in front of it
+/// (OverlapRule): 3 Gauss points. An overlap grows by what this border moves outward.
+void add_border(const OverlapColumn& slave, const PlacedFacet& seen_master, std::size_t edge, double nearer,
                 std::vector<BorderPoint>& points);
 
 /// A master facet that lies in a column, and the range of its points in a list.

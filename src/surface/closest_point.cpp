@@ -53,6 +53,7 @@ void consider(const NodeQuery& query, Index f, ClosestPoint& best) {
   if (p.gap < 0.0 && query.is_too_deep(f, p.gap)) return;
   bool is_continued = false;
   std::optional<Rim> rim;
+  if (p.site != ProjectionSite::interior && goes_on_nearer(query, f, p)) return;
   const bool is_beyond = p.site != ProjectionSite::interior && ends_at(query, f, p);
   if (is_beyond) {
     const ParentPoint at = perpendicular_foot(facet, query.x, {p.xi, p.eta});
@@ -75,7 +76,6 @@ void consider(const NodeQuery& query, Index f, ClosestPoint& best) {
       p.gap = dot(subtract(query.x, frame.position), frame.normal);
     }
   }
-  if (!is_beyond && p.site != ProjectionSite::interior && goes_on_nearer(query, f, p)) return;
   best = {p.distance, f, p, is_continued, is_beyond && !is_continued, rim};
 }
 

@@ -178,4 +178,21 @@ FacetFrame face_frame(const ParentFace& face, const FaceShape& shape, std::span<
   return frame;
 }
 
+double distance_from_facet(const ParentFace& face, const Facet& facet, std::span<const Vec3> x) {
+  if (face.is_linear) return 0.0;
+  static constexpr ParentPoint segment[1] = {{0.0, 0.0}};
+  static constexpr ParentPoint triangle[4] = {{1.0 / 3.0, 1.0 / 3.0}, {0.5, 0.0}, {0.5, 0.5}, {0.0, 0.5}};
+  static constexpr ParentPoint quad[5] = {{0.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}, {0.0, 1.0}, {-1.0, 0.0}};
+  const std::span<const ParentPoint> middles =
+      facet.size == 2 ? std::span<const ParentPoint>(segment)
+                      : (facet.size == 3 ? std::span<const ParentPoint>(triangle) : std::span<const ParentPoint>(quad));
+  const PlacedFacet placed = place(facet, x);
+  double most = 0.0;
+  for (const ParentPoint& at : middles) {
+    const Vec3 on_face = face_frame(face, face_shape(face, in_parent(face, facet, at)), x).position;
+    most = std::max(most, norm(subtract(on_face, facet_position(placed, at.xi, at.eta))));
+  }
+  return most;
+}
+
 }  // namespace carom

@@ -39,4 +39,8 @@ FaceShape face_shape(const ParentFace& face, const ParentPoint& at);
 /// Position, tangents and unit normal of the face at a point, its nodes being at x; segments as in facet_frame.
 FacetFrame face_frame(const ParentFace& face, const FaceShape& shape, std::span<const Vec3> x);
 
+/// How far the face is from a facet of its, its nodes being at x: the largest distance at the middle of the facet and
+/// at those of its edges. 0 for a linear one.
+double distance_from_facet(const ParentFace& face, const Facet& facet, std::span<const Vec3> x);
+
 }  // namespace carom

@@ -150,22 +150,21 @@ std::vector<SurfacePoint> SurfaceSearch::other_sides(std::size_t q, const Surfac
     if (body_of(f) == body) space.candidates.push_back(f);
   const Index behind = behind_.empty() || behind_[q] < 0 || body_of(behind_[q]) != body ? -1 : behind_[q];
   const NodeQuery query = query_of(q, space.candidates, behind, space);
-  const Vec3 normal = mean_normal(met);
+  const auto go_on = [this](Index f, Index g) {
+    return dot(surface_.normal(f), surface_.normal(g)) > NodeQuery::smooth;  // as feet_around has it
+  };
   std::vector<ClosestPoint> near;
   for (const Index f : query.candidates) {
     if (facets()[f].size == 2) continue;
     const Projection p = query.projection_on(f);
-    if (p.site == ProjectionSite::interior && p.gap < 0.0 && p.gap > 2.0 * met.gap &&
-        dot(p.normal, normal) < NodeQuery::smooth)
+    if (p.site == ProjectionSite::interior && p.gap < 0.0 && p.gap > 2.0 * met.gap && !go_on(f, met.feet.front().facet))
       near.push_back({p.distance, f, p});
   }
   std::ranges::stable_sort(near, {}, &ClosestPoint::distance);
   std::vector<SurfacePoint> sides;
   for (const ClosestPoint& at : near) {
     const Projection& p = at.projection;
-    const auto goes_on = [&](const SurfacePoint& side) {
-      return dot(mean_normal(side), p.normal) >= NodeQuery::smooth;
-    };
+    const auto goes_on = [&](const SurfacePoint& side) { return go_on(at.facet, side.feet.front().facet); };
     if (std::ranges::any_of(sides, goes_on)) continue;
     const bool is_mean = query.counts(at.facet) && meets(query, at, space.side) && space.side.facet == at.facet;
     if (!is_mean) take_only(at.facet, p, {p.normal, p.gap}, space.side);

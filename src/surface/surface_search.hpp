@@ -76,8 +76,8 @@ class SurfaceSearch {
 
   std::span<const Index> nodes() const { return nodes_; }
   /// What nodes()[q] would meet on other sides of the body that it is in, were they the nearest: on facets that do not
-  /// go on in those of `met`, behind which it is no more than twice as deep and has its foot; of facets that go on in
-  /// each other the nearest. In the plane none, where a node at a corner meets both of its sides.
+  /// go on in the nearest of `met`, behind which it is no more than twice as deep and has its foot; of facets that go
+  /// on in each other the nearest. In the plane none, where a node at a corner meets both of its sides.
   std::vector<SurfacePoint> other_sides(std::size_t q, const SurfacePoint& met, Space& space) const;
   std::span<const Facet> facets() const { return broad_phase_.targets(); }
   long builds() const { return broad_phase_.builds(); }

@@ -215,6 +215,35 @@ TEST(FaceRows, DoNotJumpWhereAnotherSideBecomesTheNearest) {
   }
 }
 
+// A ridge between two warped facets, whose sides are turned by 72 degrees at their middles, which makes them two sides
+// of the body, and by 57 where the corner of a box crosses it. The side that becomes the nearest counts before it is,
+// or the corner's row jumps there: the box leans by little over the right side alone.
+TEST(FaceRows, DoNotJumpBehindARidgeOfWarpedFacets) {
+  constexpr double dip = 0.15, step = 1e-3, y = 3.5;
+  const auto slope = [](double t) { return 1.0 - 0.534 * t; };
+  double last = 0.0, most = 0.0;
+  for (double x = -dip; x < dip; x += step) {
+    Scene scene;
+    const auto roof = scene.add_patch(2, 1, [&](double s, double t) {
+      return Vec3{20 * s - 10, 10 * t - 5, -slope(t) * std::abs(20 * s - 10)};
+    });
+    const std::size_t first = scene.mesh.coordinates.size();
+    const auto box = scene.add_box({0, 0, 0}, {12, 12, 12}, 1);
+    const double a = -0.4, b = 0.1;
+    for (std::size_t n = first; n < scene.mesh.coordinates.size(); ++n) {
+      Vec3& at = scene.mesh.coordinates[n];
+      at = {std::sqrt(0.5) * (at[0] - at[1]), std::sqrt(0.5) * (at[0] + at[1]), at[2]};
+      at = {at[0], at[1] * std::cos(b) - at[2] * std::sin(b), at[1] * std::sin(b) + at[2] * std::cos(b)};
+      at = {x + at[0] * std::cos(a) - at[2] * std::sin(a), y + at[1], at[0] * std::sin(a) + at[2] * std::cos(a) - dip};
+    }
+    scene.finish().contacts.emplace_back(faces(box, roof));
+    const double now = energy(ContactGeometry(scene.model), scene.zero());
+    if (last > 0.0) most = std::max(most, std::abs(now / last - 1.0));
+    last = now;
+  }
+  EXPECT_LT(most, 10.0 * step / dip);  // of the fades, whose lengths are parts of the dip
+}
+
 TEST(FaceRows, HaveNeitherForceNorMoment) {
   Random random(3);
   const AskewBoxes boxes;
@@ -464,11 +493,11 @@ struct CrookedCubes {
 };
 
 /// A cube of 20 nodes on another one, out over two of its edges and `depth` inside; the edges of the lower one's top
-/// are bent by `bend`.
+/// are bent by `bend`, and the upper one rises by `rise` along x.
 struct BentCubes {
   Scene scene;
 
-  BentCubes(double depth, double bend) {
+  BentCubes(double depth, double bend, double rise = 0.0) {
     CellFiller filler;
     for (const Vec3& low : {Vec3{0, 0, 0}, Vec3{0.43, 0.37, 1.0 - depth}}) {
       std::vector<Index> corners;
@@ -485,6 +514,8 @@ struct BentCubes {
       Vec3& x = scene.mesh.coordinates[n];
       if (x[2] == 1.0 && (x[0] == 0.5 || x[1] == 0.5)) x[2] += bend;
     }
+    for (std::size_t n = 20; n < scene.mesh.coordinates.size(); ++n)
+      scene.mesh.coordinates[n][2] += rise * scene.mesh.coordinates[n][0];
     std::vector<Facet> first, second;
     const auto of_first = std::span(scene.mesh.blocks.front().connectivity).first(20);
     for (const Facet& facet : skin(scene.mesh))
@@ -500,6 +531,19 @@ TEST(FaceRows, OfSecondOrderAreTheGradientOfTheirEnergyAtBorders) {
   const ContactGeometry contact(cubes.scene.model);
   EXPECT_GT(energy(contact, cubes.scene.zero()), 0.0);
   EXPECT_LT(force_error(contact, cubes.scene.zero()), 0.01);
+}
+
+// A face that bulges by twice what its middle nodes do is met by another one before the facets between these are, and
+// the energy grows on when a corner of them is. What was behind by the facets alone was left then, next to nothing.
+TEST(FaceRows, OfSecondOrderGoOnWhereTheirFacetsBeginToTouch) {
+  double last = 0.0;
+  for (double depth = -0.07; depth < 0.01; depth += 1e-3) {
+    const BentCubes cubes(depth, 0.05, 0.05);
+    const double now = energy(ContactGeometry(cubes.scene.model), cubes.scene.zero());
+    EXPECT_GE(now, last) << depth;
+    last = now;
+  }
+  EXPECT_GT(last, 0.0);
 }
 
 // A line that passes by a curved face meets what its shape functions say out there, lengths away; the cubes are 0.5

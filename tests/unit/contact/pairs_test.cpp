@@ -360,6 +360,29 @@ TEST(NodeRows, TakeNoDepthFromNodesBesideARim) {
   }
 }
 
+// A body whose upper side is a valley, and a node that has come along beside its wall, lower than the left side of the
+// valley and before the right one continued: the left side, which is nearer, it has not come through, so that the right
+// one is no closest point of the body, and does not make a mean with the left one.
+TEST(NodeRows, BesideAWallMeetNoFacetThatIsFartherThanItsNeighbour) {
+  for (double x = -0.09; x < 0.0; x += 0.01) {
+    Scene scene;
+    std::vector<Facet> body = scene.add_patch(2, 1, [](double s, double t) {
+      return Vec3{2 * s - 1, t, 0.1 * std::abs(2 * s - 1)};
+    });
+    const std::array<Index, 3> rim{3, 4, 5};
+    std::array<Index, 3> foot{};
+    for (std::size_t i = 0; i < 3; ++i) foot[i] = scene.add_node({static_cast<double>(i) - 1.0, 1.0, -1.0});
+    for (std::size_t i = 0; i < 2; ++i) body.push_back({{rim[i], rim[i + 1], foot[i + 1], foot[i]}, 4});
+    const auto sole = scene.add_patch(1, 1, [x](double s, double t) { return Vec3{x + t, 1.03 + 0.5 * s, -0.003}; });
+    scene.finish().contacts.emplace_back(pair({sole}, {body}));
+    const ContactGeometry contact(scene.model);
+    const std::vector<RowHistory> was_in_front(contact.slots());
+    const auto u = scene.zero();
+    const auto rows = contact.rows_at(u, u, {.history = was_in_front});
+    for (std::size_t r = 0; r < rows->size(); ++r) EXPECT_GE(rows->gap_at(r, u), 0.0) << x;
+  }
+}
+
 TEST(NodeRows, InTwoPassesHaveBothSidesSlotsAndHalfTheStiffness) {
   Scene scene;
   const auto plate = scene.add_patch(5, 5, [](double s, double t) { return Vec3{s, t, 0}; });
