@@ -10,6 +10,7 @@
 #include "base/types.hpp"
 #include "model/model.hpp"
 #include "parallel/threads.hpp"
+#include "schemes/scheme_table.hpp"
 #include "solid/point_history.hpp"
 #include "solid/stability.hpp"
 
@@ -101,8 +102,9 @@ long long expected_steps(const Stage& stage, const Simulation& s) {
 }
 
 double stage_seconds(const Stage& stage, const Simulation& s) {
-  const double bodies = seconds_of_bodies(s.solid()), steps = static_cast<double>(expected_steps(stage, s)),
-               touching = contact_nodes(s);
+  const double bodies = seconds_of_bodies(s.solid()), touching = contact_nodes(s);
+  const double steps =
+      static_cast<double>(expected_steps(stage, s)) * static_cast<double>(parts_of_step(stage.settings().kind));
   if (is_explicit(stage.settings().kind)) {
     const double per_node = traits(stage.settings().enforcement).adds_stiffness ? 8e-6 : 2e-5;
     return steps * (bodies + 3e-8 * static_cast<double>(s.mesh().node_count()) + per_node * touching);

@@ -141,7 +141,8 @@ SchemeRow bathe_row() {
           },
           // The trapezoidal rule reflects a mass that reaches the row at the middle, the backward formula makes 5/3 of
           // that, and the multiplier, which has opened, pushes on through a0: 2 in all.
-          .touch_rebound = [](const SchemeParameters& /*parameters*/) { return 2.0; }};
+          .touch_rebound = [](const SchemeParameters& /*parameters*/) { return 2.0; },
+          .parts_of_step = 2};
 }
 
 }  // namespace carom

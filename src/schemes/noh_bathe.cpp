@@ -185,7 +185,8 @@ SchemeRow noh_bathe_row() {
   return {.make = [](const SchemeRequest& r) -> std::unique_ptr<Scheme> {
             return std::make_unique<NohBathe>(r.system, r.parameters<NohBatheParameters>());
           },
-          .stability_limit = noh_bathe_limit};
+          .stability_limit = noh_bathe_limit,
+          .parts_of_step = 2};
 }
 
 }  // namespace carom

@@ -31,6 +31,10 @@ std::string describe(const SchemeSettings& settings) {
   return text;
 }
 
+int parts_of_step(SchemeKind kind) {
+  return row(kind).parts_of_step;
+}
+
 double stability_limit(const SchemeSettings& settings) {
   const auto limit = row(settings.kind).stability_limit;
   return limit != nullptr ? limit(settings.parameters) : std::numeric_limits<double>::infinity();

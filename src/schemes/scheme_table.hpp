@@ -30,6 +30,7 @@ struct SchemeRow {
   std::unique_ptr<Scheme> (*make)(const SchemeRequest& request) = nullptr;
   double (*stability_limit)(const SchemeParameters& parameters) = nullptr;  ///< null: any step is stable
   double (*touch_rebound)(const SchemeParameters& parameters) = nullptr;    ///< null: it takes no plain multipliers
+  int parts_of_step = 1;  ///< how often a step solves for a motion, or evaluates the forces
 };
 
 #define CAROM_DECLARE_SCHEME(scheme) SchemeRow scheme##_row();
@@ -43,6 +44,9 @@ std::string describe(const SchemeSettings& settings);
 
 /// Largest omega h at which the scheme is stable on an undamped oscillator; infinity where there is none.
 double stability_limit(const SchemeSettings& settings);
+
+/// SchemeRow::parts_of_step.
+int parts_of_step(SchemeKind kind);
 
 /// The largest touch_rebound() of a run on plain multipliers that may be expected to keep its energy; above it, it may
 /// make more (measured on cases/impact_bar/bars.toml at Courant numbers 0.15 to 3: growth below 1 % up to 1.4, above 5
