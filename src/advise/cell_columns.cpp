@@ -25,14 +25,14 @@ constexpr std::array<std::array<int, 4>, 6> quad_sides{{{0, 3, none, none},
 
 }  // namespace
 
-CellColumns::CellColumns(const Mesh& mesh, const Solid& solid)
-    : mesh_(mesh), cells_(solid.cells()), of_cell_(cells_.size(), {none, none, none}) {
+CellColumns::CellColumns(const Mesh& mesh, const Solid& solid) : mesh_(mesh), cells_(solid.cells()) {
   const auto key_of = [this](Side side) {
     if (side % 6 >= 2 * at(dimension(side / 6))) return no_face;
     const Facet f = facet(side);
     return face_key({f.begin(), f.end()});
   };
   neighbour_ = face_twins(6 * cells_.size(), 6, key_of, mesh_.node_count());
+  of_cell_.assign(cells_.size(), {none, none, none});
   for (std::size_t k = 0; k < cells_.size(); ++k) {
     for (int axis = 0; axis < dimension(k); ++axis) {
       for (const Side side : {6 * k + 2 * at(axis), 6 * k + 2 * at(axis) + 1})

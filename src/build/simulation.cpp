@@ -299,7 +299,8 @@ void Simulation::refuse_velocities(const State& start) const {
   }
 }
 
-bool Simulation::begin_velocities(std::size_t stage, State& state) const {
+bool Simulation::begin_velocities(std::size_t stage, State& state, const Holding* shared) const {
+  constexpr std::size_t piece = 1U << 17U;  // nodes: 3 MB
   const std::size_t first = first_with_inertia();
   bool given = false;
   for (const InitialState& initial : model_.initial) {
@@ -308,6 +309,7 @@ bool Simulation::begin_velocities(std::size_t stage, State& state) const {
     for (std::size_t k = 0; k < initial.nodes.size(); ++k) {
       const Vec3& velocity = initial.velocity_of(k);
       std::copy(velocity.begin(), velocity.end(), state.v.begin() + 3 * static_cast<std::ptrdiff_t>(initial.nodes[k]));
+      if (shared != nullptr && k % piece == piece - 1) shared->release(state.v);
     }
   }
   return given;

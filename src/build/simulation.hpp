@@ -51,8 +51,9 @@ class Simulation {
   /// The state of the case's [initial_state] and [[initial]] sections, before Scheme::start; with the velocities that
   /// begin later, if the first stages are statics.
   State initial_state() const;
-  /// Gives the nodes the velocities that begin with a stage (0: that of [scheme]); false when there are none.
-  bool begin_velocities(std::size_t stage, State& state) const;
+  /// Gives the nodes the velocities that begin with a stage (0: that of [scheme]); false when there are none. Where
+  /// ranks share the nodes out: those that this one holds, and any others.
+  bool begin_velocities(std::size_t stage, State& state, const Holding* shared = nullptr) const;
 
  private:
   std::vector<bool> later_velocities(std::size_t stage) const;

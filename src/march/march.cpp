@@ -105,7 +105,7 @@ void March::begin_stage(std::size_t number) {
   stage_ = std::move(next);
   shared_ = {s_.solid(), scheme().shared_nodes(), state_};
   const std::vector<double> v_before = books_ ? state_.v : std::vector<double>();
-  const bool gives_velocities = s_.begin_velocities(number, state_);
+  const bool gives_velocities = s_.begin_velocities(number, state_, books_ ? nullptr : scheme().shared_nodes());
   stage_->begin(state_, count_.steps());
   if (!books_) {
     books_.emplace(s_, stage(), state_, rest);

@@ -73,7 +73,14 @@ void OverlapWatch::see(const StepView& view) {
   if (view.step == 0) return;
   if (state.topology != topology_) follow(state);
   const bool is_regular = state.t >= next_ || view.is_last();
-  if (is_regular || motion_->looks_next()) view.shared.complete_displacements(surfaces_->skin().nodes);
+  const bool asks = is_regular || motion_->looks_next();
+  if (asks) view.shared.complete_displacements(surfaces_->skin().nodes);
+  look_if_due(view, is_regular);
+  if (asks) view.shared.release();  // nodes of the skin lie in pages all over the body
+}
+
+void OverlapWatch::look_if_due(const StepView& view, bool is_regular) {
+  const State& state = view.state;
   const LookDue due = motion_->due(simulation_.mesh().coordinates, state.q, view.iterations);
   const bool sees_folds = due == LookDue::folds || view.is_last() || (is_regular && motion_->may_see_folds());
   if (is_regular || due != LookDue::none) look(state, sees_folds ? Folds::seen : Folds::left_out);

@@ -35,6 +35,7 @@ class OverlapWatch : public Observer {
   }
 
   void follow(const State& state);
+  void look_if_due(const StepView& view, bool is_regular);
   void look(const State& state, Folds folds);
   const Model& model() const { return topology_ ? topology_->model : simulation_.model(); }
   std::string names() const;

@@ -140,10 +140,11 @@ void Run::keep_rows() {
 void Run::begin() {
   watched_->case_file = simulation_.given().file;
   watched_->warnings = lint_warnings(simulation_);
-  for (Doubt& doubt : locking_doubts(simulation_)) {
-    watched_->doubts.push_back(std::move(doubt.brief));
-    watched_->warnings.push_back(std::move(doubt.warning));
-  }
+  if (ranks().own() == 0)  // which writes the warnings: these take memory
+    for (Doubt& doubt : locking_doubts(simulation_)) {
+      watched_->doubts.push_back(std::move(doubt.brief));
+      watched_->warnings.push_back(std::move(doubt.warning));
+    }
   for (std::string& warning : cost_warnings(simulation_, folder_)) watched_->warnings.push_back(std::move(warning));
   watched_->notes = reading_notes_;
   watched_->notes.insert(watched_->notes.end(), simulation_.notes().begin(), simulation_.notes().end());
