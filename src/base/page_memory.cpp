@@ -9,20 +9,16 @@
 namespace carom {
 
 void release_pages(std::span<double> values) {
-  static const auto page = static_cast<std::uintptr_t>(sysconf(_SC_PAGESIZE));
-  const auto begin = reinterpret_cast<std::uintptr_t>(values.data());
-  const std::uintptr_t end = begin + values.size_bytes();
-  const std::uintptr_t first = (begin + page - 1) / page * page, last = end / page * page;
-  const auto place_of = [&](std::uintptr_t address) {
-    return values.begin() + static_cast<std::ptrdiff_t>((address - begin) / sizeof(double));
-  };
+  static const auto page = static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+  auto* const begin = reinterpret_cast<std::byte*>(values.data());
+  const std::size_t bytes = values.size_bytes();
+  const std::size_t ahead = std::min(bytes, (page - reinterpret_cast<std::uintptr_t>(begin) % page) % page);
+  const std::size_t whole = (bytes - ahead) / page * page;
   // What the system takes back of memory of its own making (malloc, new) it gives as zeros the next time.
-  if (first >= last || madvise(reinterpret_cast<void*>(first), last - first, MADV_DONTNEED) != 0) {
-    std::fill(values.begin(), values.end(), 0.0);
-    return;
-  }
-  std::fill(values.begin(), place_of(first), 0.0);
-  std::fill(place_of(last), values.end(), 0.0);
+  const bool is_given_back = whole > 0 && madvise(begin + ahead, whole, MADV_DONTNEED) == 0;
+  const std::size_t first = ahead / sizeof(double), last = is_given_back ? first + whole / sizeof(double) : first;
+  std::ranges::fill(values.first(first), 0.0);
+  std::ranges::fill(values.subspan(last), 0.0);
 }
 
 std::vector<double> unwritten_zeros(std::size_t n) {
