@@ -22,7 +22,7 @@ void release_pages(std::span<double> values) {
 }
 
 std::vector<double> unwritten_zeros(std::size_t n) {
-  constexpr std::size_t piece = 1U << 17U;  // 1 MB: what is written in vain takes memory for a moment
+  constexpr std::size_t piece = 1U << 17U;  // 1 MB, which takes memory for a moment: vectors write their zeros
   std::vector<double> zeros;
   zeros.reserve(n);
   while (zeros.size() < n) {

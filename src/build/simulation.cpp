@@ -116,7 +116,7 @@ Simulation::Simulation(Case given)
   refuse_surfaces_from_behind();
   settle_initial_penetrations();
   {
-    const State first = initial_state();  // for a while: it is large
+    const State first = initial_state();  // not kept while the stages are made: it is large
     refuse_torn_ties(case_, model_, contact_, first.q, first.v);
   }
   const StageContext context{case_, *mesh_, model_, solid_, contact_};

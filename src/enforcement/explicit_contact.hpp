@@ -30,7 +30,8 @@ class ExplicitContact {
   /// Fills all forces of a step of length h whose end is at end.q and has the velocity v. Returns what respond()
   /// returns.
   std::string evaluate(const System& system, const State& begin, double h, std::span<const double> v, State& end);
-  /// Fills all forces of a state that a run begins with. Throws std::runtime_error when contact finds none.
+  /// Fills all forces of a state that a run begins with; shared: of the nodes that this rank holds, where ranks share
+  /// them out. Throws std::runtime_error when contact finds none.
   void start(const System& system, double dt, double weight, State& state, const Holding* shared = nullptr);
   /// Says where the work of the contact forces over the step went, as ContactPort::work does; the caller fills `total`.
   virtual ContactWork work(const State& begin, const State& end) const = 0;

@@ -63,7 +63,7 @@ class March {
   std::vector<double> hand_over(std::vector<double> State::*values);
   /// On several ranks, gives all of the state to each. All ranks call it.
   void complete() { shared_.complete(); }
-  /// The same to the first one, for as long as body() takes. All ranks call it.
+  /// On several ranks, gives all of the state to the first one, for as long as body() takes. All ranks call it.
   template <class Body>
   void with_all_of_it(const Body& body) {
     shared_.collect();

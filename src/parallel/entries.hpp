@@ -42,7 +42,7 @@ class Entries {
   void spoil(std::span<double> values) const {
     if (items_ != nullptr) items_->spoil(values);
   }
-  /// As many zeros as there are entries; memory is taken for those that this rank holds alone.
+  /// As many zeros as there are entries; where items are shared out they take memory once they are written to.
   std::vector<double> zeros() const {
     std::vector<double> values;
     if (items_ != nullptr)

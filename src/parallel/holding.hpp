@@ -60,8 +60,7 @@ class Holding {
   void complete(std::span<double> values, std::span<const Index> items) const;
   /// In builds with assertions, makes what this rank does not hold no numbers, so that tests see who reads it.
   void spoil(std::span<double> values) const;
-  /// Gives a vector its size, if it has another: new values are 0, and take memory where this rank holds the item
-  /// alone.
+  /// Gives a vector its size, if it has another: all values are 0 then, and take memory once they are written to.
   void resize(std::vector<double>& values) const;
   /// Makes what this rank does not hold 0, and gives its memory back.
   void release(std::span<double> values) const;

@@ -140,7 +140,7 @@ void Run::keep_rows() {
 void Run::begin() {
   watched_->case_file = simulation_.given().file;
   watched_->warnings = lint_warnings(simulation_);
-  if (ranks().own() == 0)  // which writes the warnings: these take memory
+  if (ranks().own() == 0)  // The first rank alone writes the warnings, and looking at columns of cells takes memory.
     for (Doubt& doubt : locking_doubts(simulation_)) {
       watched_->doubts.push_back(std::move(doubt.brief));
       watched_->warnings.push_back(std::move(doubt.warning));
